@@ -1,0 +1,32 @@
+//! `brisance._engine`: the engine for Python.
+//!
+//! Thin: numpy arrays in and out, keyword arguments only, the GIL released while the engine works, Ctrl-C heard.
+//! Everything a user gets wrong becomes `brisance.errors.InputError` with the engine's own sentence.
+
+mod arrays;
+mod blast;
+mod recording;
+mod scene;
+
+use brisance_engine as engine;
+use pyo3::prelude::*;
+
+pyo3::import_exception!(brisance.errors, InputError);
+
+/// The engine's refusal as Python's exception.
+fn refused(error: engine::Error) -> PyErr {
+    InputError::new_err(error.to_string())
+}
+
+#[pymodule]
+mod _engine {
+    #[pymodule_export]
+    use super::blast::{
+        curves, explosives, face_history, front_radius, pulse, rankine_hugoniot, reflection_chart,
+        reflection_coefficient,
+    };
+    #[pymodule_export]
+    use super::recording::Recording;
+    #[pymodule_export]
+    use super::scene::{Scene, mass_properties};
+}

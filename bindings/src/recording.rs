@@ -1,0 +1,137 @@
+//! A finished run for Python.
+
+use std::time::Duration;
+
+use engine::recording::{BodyFacts, Recording as EngineRecording};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::rows_of_three;
+use crate::engine;
+
+/// Poses and facts of a finished run. Arrays are made anew at each access.
+#[pyclass(module = "brisance._engine", frozen)]
+pub struct Recording {
+    inner: EngineRecording,
+    load: Duration,
+    dynamics: Duration,
+}
+
+impl Recording {
+    pub fn new(inner: EngineRecording, load: Duration, dynamics: Duration) -> Self {
+        Self { inner, load, dynamics }
+    }
+
+    fn fact<'py>(&self, py: Python<'py>, fact: fn(&BodyFacts) -> f64) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_iter(py, self.inner.facts.iter().map(fact))
+    }
+
+    fn poses<'py>(&self, flat: Bound<'py, PyArray1<f32>>, width: usize) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        flat.reshape([self.inner.times.len(), self.inner.facts.len(), width])
+    }
+}
+
+#[pymethods]
+impl Recording {
+    /// Time of each frame [s], (frames,).
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.inner.times)
+    }
+
+    /// Centres of mass in the world [m], (frames, bodies, 3).
+    #[getter]
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let flat: Vec<f32> = self.inner.positions.iter().flat_map(|p| p.to_array()).collect();
+        self.poses(PyArray1::from_vec(py, flat), 3)
+    }
+
+    /// Rotations from body into world, (frames, bodies, 4), w first.
+    #[getter]
+    fn orientations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let flat: Vec<f32> = self.inner.orientations.iter().flat_map(|q| [q.w, q.x, q.y, q.z]).collect();
+        self.poses(PyArray1::from_vec(py, flat), 4)
+    }
+
+    /// Masses [kg], (bodies,).
+    #[getter]
+    fn mass_kg<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.mass)
+    }
+
+    /// Open areas projected toward the nearest charge [m²], (bodies,).
+    #[getter]
+    fn frontal_area_m2<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.frontal_area)
+    }
+
+    /// Distances from the nearest charge [m], (bodies,).
+    #[getter]
+    fn distance_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.distance)
+    }
+
+    /// Arrival of the first front [s], (bodies,).
+    #[getter]
+    fn arrival_time_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.arrival_time)
+    }
+
+    /// Highest incident overpressures [Pa], (bodies,).
+    #[getter]
+    fn peak_overpressure_pa<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.peak_overpressure)
+    }
+
+    /// Highest pressures on the most loaded panel [Pa], (bodies,).
+    #[getter]
+    fn peak_load_pa<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.peak_load)
+    }
+
+    /// Impulses received [N s], (bodies, 3).
+    #[getter]
+    fn impulse_n_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        rows_of_three(py, self.inner.facts.iter().map(|f| f.impulse))
+    }
+
+    /// Shares of the unsheltered load received, (bodies,).
+    #[getter]
+    fn attenuation<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.attenuation)
+    }
+
+    /// Speeds at the end of loading [m/s], (bodies,).
+    #[getter]
+    fn launch_speed_m_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.launch_speed)
+    }
+
+    /// When bodies came to rest for good [s]; not a number where they still move, (bodies,).
+    #[getter]
+    fn rest_time_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.rest_time)
+    }
+
+    /// The simulation step [s].
+    #[getter]
+    fn step_s(&self) -> f64 {
+        self.inner.step
+    }
+
+    /// What was approximated, in sentences.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.inner.warnings.clone()
+    }
+
+    /// Wall-clock time of the run's parts [s]: load, dynamics.
+    #[getter]
+    fn timing_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let timing = PyDict::new(py);
+        timing.set_item("load", self.load.as_secs_f64())?;
+        timing.set_item("dynamics", self.dynamics.as_secs_f64())?;
+        Ok(timing)
+    }
+}

@@ -1,0 +1,287 @@
+//! Building and running a scene from Python.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use engine::air::Air;
+use engine::charge::Charge;
+use engine::dynamics::ground::Ground;
+use engine::geometry::{MassProperties, TriangleMesh};
+use engine::loading::Clearing;
+use engine::scene::{Body, Dynamics, Loading, Scene as EngineScene, Shape, Time};
+use engine::simulation::Simulation;
+use glam::DVec3;
+use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{floats, quaternion, quaternions, rows_of_three, same_length, vectors};
+use crate::blast::{Source, burst, drag, loading_mode, pulse_shape};
+use crate::recording::Recording;
+use crate::{InputError, engine, refused};
+
+/// How often a run listens for Ctrl-C and reports how far it is.
+const HEARTBEAT: Duration = Duration::from_millis(50);
+
+/// A length, or the name of a way to find it.
+#[derive(FromPyObject)]
+pub enum ClearingArgument {
+    Length(f64),
+    Name(String),
+}
+
+/// A scene of charges and rigid bodies, ready to be filled and simulated.
+#[pyclass(module = "brisance._engine")]
+pub struct Scene {
+    scene: EngineScene,
+    assemblies: u32,
+}
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (*, pressure, temperature, ground, duration, frame_rate, step, mode, clearing, drag, pulse,
+        negative_phase, damping_factor, rotation_factor))]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        pressure: f64,
+        temperature: f64,
+        ground: Option<(f64, f64)>,
+        duration: f64,
+        frame_rate: f64,
+        step: Option<f64>,
+        mode: &str,
+        clearing: ClearingArgument,
+        drag: &str,
+        pulse: &str,
+        negative_phase: bool,
+        damping_factor: f64,
+        rotation_factor: f64,
+    ) -> PyResult<Self> {
+        let clearing = match clearing {
+            ClearingArgument::Length(length) => Clearing::Length(length),
+            ClearingArgument::Name(name) => crate::blast::choose(
+                "clearing",
+                &name,
+                &[("assembly", Clearing::Assembly), ("piece", Clearing::Piece)],
+            )?,
+        };
+        let scene = EngineScene {
+            air: Air { pressure, temperature, ..Air::default() },
+            ground: ground.map(|(height, friction)| Ground { height, friction }),
+            charges: Vec::new(),
+            bodies: Vec::new(),
+            time: Time { duration, frame_rate, step },
+            loading: Loading {
+                mode: loading_mode(mode)?,
+                clearing,
+                drag: self::drag(drag)?,
+                pulse: pulse_shape(pulse)?,
+                negative_phase,
+            },
+            dynamics: Dynamics { damping_factor, rotation_factor },
+        };
+        Ok(Self { scene, assemblies: 0 })
+    }
+
+    /// Adds a charge. `source` is a name or a table of curves.
+    #[pyo3(signature = (*, mass, tnt_equivalence, position, burst, time, gain, source))]
+    #[allow(clippy::too_many_arguments)]
+    fn add_charge(
+        &mut self,
+        mass: f64,
+        tnt_equivalence: f64,
+        position: [f64; 3],
+        burst: &str,
+        time: f64,
+        gain: f64,
+        source: Source,
+    ) -> PyResult<()> {
+        let charge = Charge {
+            mass,
+            tnt_equivalence,
+            position: DVec3::from_array(position),
+            burst: self::burst(burst)?,
+            time,
+            gain,
+            curves: source.into_engine()?,
+        };
+        charge.validate().map_err(refused)?;
+        self.scene.charges.push(charge);
+        Ok(())
+    }
+
+    /// Adds n boxes: sizes (n, 3), positions (n, 3), orientations (n, 4) w first, masses (n,), buried faces (n, 6).
+    #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, can_rotate, friction,
+        drag_coefficient, lift_coefficient))]
+    #[allow(clippy::too_many_arguments)]
+    fn add_boxes(
+        &mut self,
+        size: PyReadonlyArray2<'_, f64>,
+        position: PyReadonlyArray2<'_, f64>,
+        orientation: PyReadonlyArray2<'_, f64>,
+        mass: PyReadonlyArray1<'_, f64>,
+        buried: PyReadonlyArray2<'_, bool>,
+        assembly: bool,
+        anchored: bool,
+        can_rotate: bool,
+        friction: f64,
+        drag_coefficient: f64,
+        lift_coefficient: Option<f64>,
+    ) -> PyResult<()> {
+        let sizes = vectors(&size, "size")?;
+        let positions = vectors(&position, "position")?;
+        let orientations = quaternions(&orientation, "orientation")?;
+        let masses = floats(&mass);
+        same_length("position", positions.len(), sizes.len())?;
+        same_length("orientation", orientations.len(), sizes.len())?;
+        same_length("mass", masses.len(), sizes.len())?;
+        if buried.shape() != [sizes.len(), 6] {
+            return Err(InputError::new_err("buried must have the shape (n, 6)"));
+        }
+        let group = assembly.then_some(self.assemblies);
+        self.assemblies += u32::from(assembly);
+        let buried = buried.as_array();
+        for i in 0..sizes.len() {
+            let flags = std::array::from_fn(|face| buried[[i, face]]);
+            self.scene.bodies.push(Body {
+                shape: Shape::Box { size: sizes[i], buried: flags },
+                position: positions[i],
+                orientation: orientations[i],
+                mass: masses[i],
+                assembly: group,
+                anchored,
+                can_rotate,
+                friction,
+                drag_coefficient,
+                lift_coefficient,
+            });
+        }
+        Ok(())
+    }
+
+    /// Adds one body with the shape of a closed mesh: vertices (v, 3) in its own frame, triangles (t, 3).
+    #[pyo3(signature = (*, vertices, triangles, position, orientation, mass, anchored, can_rotate, friction,
+        drag_coefficient, lift_coefficient))]
+    #[allow(clippy::too_many_arguments)]
+    fn add_mesh(
+        &mut self,
+        vertices: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, i64>,
+        position: [f64; 3],
+        orientation: [f64; 4],
+        mass: f64,
+        anchored: bool,
+        can_rotate: bool,
+        friction: f64,
+        drag_coefficient: f64,
+        lift_coefficient: Option<f64>,
+    ) -> PyResult<()> {
+        self.scene.bodies.push(Body {
+            shape: Shape::Mesh(Arc::new(mesh(&vertices, &triangles)?)),
+            position: DVec3::from_array(position),
+            orientation: quaternion(orientation),
+            mass,
+            assembly: None,
+            anchored,
+            can_rotate,
+            friction,
+            drag_coefficient,
+            lift_coefficient,
+        });
+        Ok(())
+    }
+
+    /// Centres of mass in the bodies' own frames, (bodies, 3) [m].
+    fn centres_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let centres: Vec<DVec3> = (self.scene.bodies.iter())
+            .map(|body| body.mass_properties().map(|m| m.centre).map_err(refused))
+            .collect::<PyResult<_>>()?;
+        Ok(rows_of_three(py, centres.into_iter()))
+    }
+
+    /// Runs the scene. `progress(done, total)` hears of frames; `threads` bounds the threads used.
+    #[pyo3(signature = (*, threads=None, progress=None))]
+    fn simulate(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Recording> {
+        let scene = &self.scene;
+        py.detach(|| {
+            let work = || run(scene, progress.as_ref());
+            match threads {
+                None => work(),
+                Some(count) => rayon::ThreadPoolBuilder::new()
+                    .num_threads(count)
+                    .build()
+                    .map_err(|e| InputError::new_err(format!("{count} threads could not be started: {e}")))?
+                    .install(work),
+            }
+        })
+    }
+}
+
+/// Runs a scene without the GIL, taking it back now and then to listen for Ctrl-C and report progress.
+fn run(scene: &EngineScene, progress: Option<&Py<PyAny>>) -> PyResult<Recording> {
+    let start = Instant::now();
+    let simulation = Simulation::prepare(scene).map_err(refused)?;
+    let load = start.elapsed();
+    let mut last_beat = Instant::now();
+    let mut interruption = None;
+    let mut observer = |done: usize, total: usize| {
+        if last_beat.elapsed() < HEARTBEAT && done < total {
+            return ControlFlow::Continue(());
+        }
+        last_beat = Instant::now();
+        let heard = Python::attach(|py| {
+            py.check_signals()?;
+            progress.map_or(Ok(()), |callback| callback.call1(py, (done, total)).map(drop))
+        });
+        match heard {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                interruption = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    };
+    let recorded = simulation.run(&mut observer);
+    let dynamics = start.elapsed() - load;
+    match interruption {
+        Some(error) => Err(error),
+        None => Ok(Recording::new(recorded.map_err(refused)?, load, dynamics)),
+    }
+}
+
+fn mesh(vertices: &PyReadonlyArray2<'_, f64>, triangles: &PyReadonlyArray2<'_, i64>) -> PyResult<TriangleMesh> {
+    if triangles.shape()[1] != 3 {
+        return Err(InputError::new_err("triangles must have the shape (t, 3)"));
+    }
+    let indices = triangles
+        .as_array()
+        .rows()
+        .into_iter()
+        .map(|row| Ok([index(row[0])?, index(row[1])?, index(row[2])?]))
+        .collect::<PyResult<_>>()?;
+    TriangleMesh::new(vectors(vertices, "vertices")?, indices).map_err(refused)
+}
+
+fn index(value: i64) -> PyResult<u32> {
+    u32::try_from(value).map_err(|_| InputError::new_err(format!("{value} is no index of a vertex")))
+}
+
+/// Volume [m³], centre [m] and inertia about it for a density of 1 [m⁵] of the solid inside a closed mesh.
+#[pyfunction]
+#[pyo3(signature = (*, vertices, triangles))]
+pub fn mass_properties<'py>(
+    py: Python<'py>,
+    vertices: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let solid = MassProperties::of_mesh(&mesh(&vertices, &triangles)?, 1.0).map_err(refused)?;
+    let result = PyDict::new(py);
+    result.set_item("volume_m3", solid.mass)?;
+    result.set_item("centre_m", rows_of_three(py, [solid.centre].into_iter()).call_method1("reshape", (3,))?)?;
+    let inertia = solid.inertia;
+    let rows = [inertia.x_axis, inertia.y_axis, inertia.z_axis];
+    result.set_item("inertia_per_density", rows_of_three(py, rows.into_iter()))?;
+    Ok(result)
+}

@@ -1,0 +1,20 @@
+//! Rigid bodies: how they turn, fly, stand, slide and meet the ground.
+//!
+//! - [`RigidBody`]: state and the free step, Newton–Euler (thesis 2.40–2.44, 3.3, 3.4);
+//! - [`Support`]: what stands on what, and with which weight (thesis 3.6);
+//! - [`standing`]: friction that must be exceeded;
+//! - [`ground`]: a plane that bodies fall on.
+//!
+//! Each body moves on its own; only what stands on what couples them, and that is settled between steps.
+//! This is what makes the result the same for any number of threads.
+
+mod body;
+pub mod ground;
+pub mod standing;
+mod support;
+
+pub use body::{Air, RigidBody, Winds};
+pub use support::{Footing, Support};
+
+/// Acceleration of free fall [m/s²], along −y.
+pub const GRAVITY: f64 = 9.806_65;

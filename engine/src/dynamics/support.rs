@@ -1,0 +1,144 @@
+//! What stands on what, and with which weight.
+
+use glam::DVec3;
+
+use super::GRAVITY;
+
+/// Two faces closer than this stand on each other [m]: a bed of mortar, or the sloppiness of a hand-made scene.
+const JOINT: f64 = 0.02;
+
+/// Where a body stands at the start of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Footing {
+    /// Lower corner of the body's bounding box in the world [m].
+    pub low: DVec3,
+    /// Upper corner of the body's bounding box in the world [m].
+    pub high: DVec3,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Whether the body never moves.
+    pub anchored: bool,
+}
+
+/// The stack: who carries whom. A body that stands on nothing is held where it is until a blast frees it.
+#[derive(Debug, Clone)]
+pub struct Support {
+    standing: Vec<bool>,
+    anchored: Vec<bool>,
+    grounded: Vec<bool>,
+    /// Bodies that carry this one, with the share of its weight that each takes.
+    carriers: Vec<Vec<(usize, f64)>>,
+    weight: Vec<f64>,
+    normal_force: Vec<f64>,
+    /// Bodies from the highest to the lowest.
+    downward: Vec<usize>,
+}
+
+impl Support {
+    /// Finds who carries whom: tops within 20 mm of a bottom, where the two overlap seen from above; the weight
+    /// is shared in proportion to the overlap.
+    pub fn new(footings: &[Footing], ground: Option<f64>) -> Self {
+        let count = footings.len();
+        let mut by_top: Vec<usize> = (0..count).collect();
+        by_top.sort_by(|&a, &b| footings[a].high.y.total_cmp(&footings[b].high.y).then(a.cmp(&b)));
+        let carriers: Vec<Vec<(usize, f64)>> =
+            (0..count).map(|body| carriers_of(body, footings, &by_top)).collect();
+        let grounded =
+            footings.iter().map(|f| ground.is_some_and(|height| f.low.y <= height + JOINT)).collect();
+        let mut downward: Vec<usize> = (0..count).collect();
+        downward.sort_by(|&a, &b| footings[b].low.y.total_cmp(&footings[a].low.y).then(a.cmp(&b)));
+        let mut support = Self {
+            standing: vec![true; count],
+            anchored: footings.iter().map(|f| f.anchored).collect(),
+            grounded,
+            carriers,
+            weight: footings.iter().map(|f| f.mass * GRAVITY).collect(),
+            normal_force: Vec::new(),
+            downward,
+        };
+        support.settle_weights();
+        support
+    }
+
+    /// Force with which a standing body presses on what carries it: its own weight and all that stands on it [N].
+    pub fn normal_force(&self, body: usize) -> f64 {
+        self.normal_force[body]
+    }
+
+    /// Whether the body stands on the ground.
+    pub fn is_grounded(&self, body: usize) -> bool {
+        self.grounded[body]
+    }
+
+    /// Whether nothing is below the body, neither another body nor the ground, so that it is held in the air.
+    pub fn hangs(&self, body: usize) -> bool {
+        self.carriers[body].is_empty() && !self.grounded[body]
+    }
+
+    /// Takes out bodies that have left their place. Those that lose their last carrier leave with them and are
+    /// appended to `left`; weights are settled anew.
+    pub fn leave(&mut self, left: &mut Vec<usize>) {
+        for &body in left.iter() {
+            self.standing[body] = false;
+        }
+        for i in (0..self.downward.len()).rev() {
+            let body = self.downward[i];
+            let carried = self.grounded[body]
+                || self.hangs(body)
+                || self.anchored[body]
+                || self.carriers[body].iter().any(|&(c, _)| self.standing[c] || self.anchored[c]);
+            if self.standing[body] && !carried {
+                self.standing[body] = false;
+                left.push(body);
+            }
+        }
+        self.settle_weights();
+    }
+
+    /// A body has come to rest on the ground again.
+    pub fn stand_up(&mut self, body: usize) {
+        self.standing[body] = true;
+        self.grounded[body] = true;
+        self.carriers[body].clear();
+        self.normal_force[body] = self.weight[body];
+    }
+
+    fn settle_weights(&mut self) {
+        self.normal_force.clone_from(&self.weight);
+        for &body in &self.downward {
+            if !self.standing[body] {
+                continue;
+            }
+            let force = self.normal_force[body];
+            for &(carrier, share) in &self.carriers[body] {
+                self.normal_force[carrier] += force * share;
+            }
+        }
+    }
+}
+
+/// Bodies whose top is at the bottom of `body` and below it, with their shares of its weight.
+fn carriers_of(body: usize, footings: &[Footing], by_top: &[usize]) -> Vec<(usize, f64)> {
+    let foot = footings[body];
+    let first = by_top.partition_point(|&i| footings[i].high.y < foot.low.y - JOINT);
+    let mut carriers: Vec<(usize, f64)> = by_top[first..]
+        .iter()
+        .take_while(|&&i| footings[i].high.y <= foot.low.y + JOINT)
+        .filter(|&&i| i != body && footings[i].low.y < foot.low.y)
+        .map(|&i| (i, overlap_from_above(&footings[i], &foot)))
+        .filter(|&(_, area)| area > 0.0)
+        .collect();
+    carriers.sort_by_key(|&(i, _)| i);
+    let total: f64 = carriers.iter().map(|&(_, area)| area).sum();
+    for (_, share) in &mut carriers {
+        *share /= total;
+    }
+    carriers
+}
+
+fn overlap_from_above(a: &Footing, b: &Footing) -> f64 {
+    let width = a.high.x.min(b.high.x) - a.low.x.max(b.low.x);
+    let depth = a.high.z.min(b.high.z) - a.low.z.max(b.low.z);
+    // A shared edge overlaps by rounding only: it carries nothing.
+    if width > 1e-9 && depth > 1e-9 { width * depth } else { 0.0 }
+}

@@ -1,0 +1,184 @@
+//! What a simulation is given: plain structs, checked once.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use crate::air::Air;
+use crate::blast::PulseShape;
+use crate::charge::Charge;
+use crate::dynamics::ground::Ground;
+use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::geometry::{MassProperties, TriangleMesh};
+use crate::loading::{Clearing, Drag, LoadingMode};
+
+/// Everything a run needs to know.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The air before the blast.
+    pub air: Air,
+    /// A level plane that bodies stand and fall on.
+    pub ground: Option<Ground>,
+    /// One or more charges.
+    pub charges: Vec<Charge>,
+    /// The bodies, in the order in which results are given.
+    pub bodies: Vec<Body>,
+    /// How long, how finely.
+    pub time: Time,
+    /// How loads are found.
+    pub loading: Loading,
+    /// Art direction of the motion.
+    pub dynamics: Dynamics,
+}
+
+/// Duration and resolution of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// Scene time from start to end [s].
+    pub duration: f64,
+    /// Frames per second of scene time.
+    pub frame_rate: f64,
+    /// Longest simulation step [s]; chosen from the loads when left out.
+    pub step: Option<f64>,
+}
+
+impl Time {
+    /// Frames of the run, with the one at time 0: frame k is at k / frame rate.
+    pub fn frames(&self) -> usize {
+        // A duration of a whole number of frames must not lose one to rounding.
+        libm::floor(self.duration * self.frame_rate + 1e-6) as usize + 1
+    }
+}
+
+/// How loads are found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Loading {
+    /// Which part of the load is counted.
+    pub mode: LoadingMode,
+    /// From how far the relief of reflected pressure comes.
+    pub clearing: Clearing,
+    /// How the blast wind acts.
+    pub drag: Drag,
+    /// The pulse's shape in time.
+    pub pulse: PulseShape,
+    /// Whether suction follows the positive phase.
+    pub negative_phase: bool,
+}
+
+/// Art direction of the motion (thesis 6.5). 1 is the physical value of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dynamics {
+    /// Multiplies air drag where it slows a body down.
+    pub damping_factor: f64,
+    /// Multiplies the torque of the blast.
+    pub rotation_factor: f64,
+}
+
+impl Default for Dynamics {
+    fn default() -> Self {
+        Self { damping_factor: 1.0, rotation_factor: 1.0 }
+    }
+}
+
+/// A rigid body at the start of a run.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its shape, in its own frame.
+    pub shape: Shape,
+    /// Where the origin of its frame is in the world [m].
+    pub position: DVec3,
+    /// Rotation from its frame into the world.
+    pub orientation: DQuat,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Bodies of the same assembly stand together: they clear from the outer edge of all. `None`: alone.
+    pub assembly: Option<u32>,
+    /// An anchored body never moves; its loads are recorded all the same.
+    pub anchored: bool,
+    /// Whether it may rotate.
+    pub can_rotate: bool,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Drag coefficient C_D on the projected area.
+    pub drag_coefficient: f64,
+    /// Lift coefficient C_L; left out, it equals C_D for a plate-like piece and is 0 for a chunky one.
+    pub lift_coefficient: Option<f64>,
+}
+
+/// Shape of a body, in its own frame [m].
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// A box centred on the origin.
+    Box {
+        /// Edge lengths along x, y, z [m].
+        size: DVec3,
+        /// Faces −x, +x, −y, +y, −z, +z that lie against a neighbour or the ground and carry no load.
+        buried: [bool; 6],
+    },
+    /// A closed mesh.
+    Mesh(Arc<TriangleMesh>),
+}
+
+impl Body {
+    /// Mass, centre of mass and inertia, in the body's own frame.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] when a mesh encloses no volume.
+    pub fn mass_properties(&self) -> Result<MassProperties> {
+        match &self.shape {
+            Shape::Box { size, .. } => Ok(MassProperties::of_box(*size, self.mass)),
+            Shape::Mesh(mesh) => Ok(MassProperties::of_mesh(mesh, 1.0)?.with_mass(self.mass)),
+        }
+    }
+}
+
+impl Scene {
+    /// Checks every number of the scene.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] or [`Error::Malformed`] for the first value without a meaning.
+    pub fn validate(&self) -> Result<()> {
+        self.air.validate()?;
+        if self.charges.is_empty() {
+            return Err(Error::Malformed("the scene has no charge".into()));
+        }
+        for charge in &self.charges {
+            charge.validate()?;
+        }
+        if let Some(ground) = self.ground {
+            finite("ground height [m]", ground.height)?;
+            not_negative("ground friction", ground.friction)?;
+        }
+        positive("duration [s]", self.time.duration)?;
+        positive("frame rate [1/s]", self.time.frame_rate)?;
+        if let Some(step) = self.time.step {
+            positive("step [s]", step)?;
+        }
+        if let Clearing::Length(length) = self.loading.clearing {
+            not_negative("clearing length [m]", length)?;
+        }
+        not_negative("damping factor", self.dynamics.damping_factor)?;
+        not_negative("rotation factor", self.dynamics.rotation_factor)?;
+        self.bodies.iter().try_for_each(Body::validate)
+    }
+}
+
+impl Body {
+    fn validate(&self) -> Result<()> {
+        positive("body mass [kg]", self.mass)?;
+        not_negative("friction", self.friction)?;
+        not_negative("drag coefficient", self.drag_coefficient)?;
+        if let Some(lift) = self.lift_coefficient {
+            not_negative("lift coefficient", lift)?;
+        }
+        if !self.position.is_finite() || !self.orientation.is_finite() || !self.orientation.is_normalized() {
+            return Err(Error::Malformed("a body's position and unit quaternion must be finite".into()));
+        }
+        if let Shape::Box { size, .. } = self.shape {
+            for edge in size.to_array() {
+                positive("box edge [m]", edge)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,395 @@
+//! The run: bodies wait for the front, are loaded, leave their places, fly and land.
+
+mod targets;
+
+use std::ops::ControlFlow;
+
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+
+use crate::blast::{BlastField, Extension};
+use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
+use crate::dynamics::standing::{Outcome, Place};
+use crate::dynamics::{Air, Footing, GRAVITY, RigidBody, Support, Winds};
+use crate::error::{Error, Result};
+use crate::recording::{BodyFacts, Recording};
+use crate::scene::Scene;
+use targets::{LoadQueue, Target};
+
+/// Below this many bodies a step is not worth sharing among threads.
+const WORTH_SHARING: usize = 2048;
+/// Bodies a thread takes at once.
+const CHUNK: usize = 256;
+
+/// A scene made ready to run.
+pub struct Simulation {
+    bodies: Vec<RigidBody>,
+    phases: Vec<Phase>,
+    lives: Vec<Life>,
+    support: Support,
+    world: World,
+    frames: usize,
+    frame_rate: f64,
+    steps_per_frame: usize,
+    warnings: Vec<String>,
+}
+
+/// What a body is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// It never moves.
+    Anchored,
+    /// In its place, still.
+    Standing,
+    /// In its place, pushed over its support.
+    Sliding,
+    /// On its own, with loads still to come.
+    Free,
+    /// On its own, all loads over.
+    Flying,
+}
+
+/// What all bodies share during a step.
+struct World {
+    ground: Option<Ground>,
+    air: Air,
+}
+
+/// What is needed of a body beside its state, and less often.
+struct Life {
+    queue: LoadQueue,
+    place: Place,
+    corners: Box<[DVec3]>,
+    object_from_principal: DQuat,
+    /// Smaller extent seen from above at the start [m].
+    extent: f64,
+    /// Friction against the ground.
+    ground_friction: f64,
+    /// For how long it has been lying calmly [s].
+    calm: f64,
+    launched: bool,
+    /// What the last step asks to be settled between the bodies.
+    change: Option<Phase>,
+    facts: BodyFacts,
+}
+
+impl Simulation {
+    /// Checks a scene and works out all loads.
+    ///
+    /// # Errors
+    /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
+    pub fn prepare(scene: &Scene) -> Result<Self> {
+        scene.validate()?;
+        let fields: Vec<BlastField> =
+            scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
+        let targets = targets::aim(scene, &fields)?;
+        let steps_per_frame = targets::steps_per_frame(scene, &targets);
+        let footings: Vec<Footing> = targets
+            .iter()
+            .zip(&scene.bodies)
+            .map(|(target, body)| Footing {
+                low: target.bounds.0,
+                high: target.bounds.1,
+                mass: body.mass,
+                anchored: body.anchored,
+            })
+            .collect();
+        let height = scene.ground.map(|g| g.height);
+        let support = Support::new(&footings, height);
+        let mut warnings = reach_warnings(&targets, fields.len());
+        if scene.ground.is_some() {
+            let anchored = |index: &usize| scene.bodies[*index].anchored;
+            warnings.extend(hanging_warning(
+                (0..footings.len()).filter(|i| !anchored(i) && support.hangs(*i)).count(),
+            ));
+        }
+        let bodies: Vec<RigidBody> = targets.iter().map(|target| target.body).collect();
+        let phases = footings.iter().map(|f| if f.anchored { Phase::Anchored } else { Phase::Standing }).collect();
+        let lives = targets
+            .into_iter()
+            .zip(&scene.bodies)
+            .enumerate()
+            .map(|(index, (target, body))| {
+                let on_ground = joint_friction(body.friction, scene.ground.map_or(0.0, |g| g.friction));
+                let in_place = if support.is_grounded(index) { on_ground } else { body.friction };
+                Life::new(target, in_place, on_ground)
+            })
+            .collect();
+        Ok(Self {
+            bodies,
+            phases,
+            lives,
+            support,
+            world: World {
+                ground: scene.ground,
+                air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
+            },
+            frames: scene.time.frames(),
+            frame_rate: scene.time.frame_rate,
+            steps_per_frame,
+            warnings,
+        })
+    }
+
+    /// The simulation step [s]: a whole number of them makes a frame.
+    pub fn step(&self) -> f64 {
+        1.0 / (self.frame_rate * self.steps_per_frame as f64)
+    }
+
+    /// Runs to the end. `observer` hears the frames done and their number after each, and may stop the run.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when the observer breaks off.
+    pub fn run(mut self, observer: &mut dyn FnMut(usize, usize) -> ControlFlow<()>) -> Result<Recording> {
+        let mut recording = Recording { step: self.step(), ..Recording::default() };
+        recording.positions.reserve_exact(self.frames * self.bodies.len());
+        recording.orientations.reserve_exact(self.frames * self.bodies.len());
+        let mut left = Vec::new();
+        for frame in 0..self.frames {
+            if frame > 0 {
+                let first = (frame - 1) * self.steps_per_frame;
+                for step in first..first + self.steps_per_frame {
+                    let dt = self.step();
+                    self.advance(step as f64 * dt, (step + 1) as f64 * dt, &mut left);
+                }
+            }
+            self.record(frame, &mut recording);
+            if observer(frame + 1, self.frames).is_break() {
+                return Err(Error::Cancelled);
+            }
+        }
+        recording.facts = self.bodies.iter().zip(self.lives).map(|(body, life)| life.finish(body)).collect();
+        recording.warnings = self.warnings;
+        Ok(recording)
+    }
+
+    /// One step of every body, then what they change for each other.
+    fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
+        let (world, support) = (&self.world, &self.support);
+        let one = |(index, ((body, phase), life)): (usize, ((&mut RigidBody, &mut Phase), &mut Life))| {
+            world.step(body, phase, life, || support.normal_force(index), t0, t1)
+        };
+        let changed = if self.bodies.len() < WORTH_SHARING {
+            self.bodies
+                .iter_mut()
+                .zip(&mut self.phases)
+                .zip(&mut self.lives)
+                .enumerate()
+                .fold(false, |any, item| one(item) | any)
+        } else {
+            self.bodies
+                .par_iter_mut()
+                .zip(&mut self.phases)
+                .zip(&mut self.lives)
+                .enumerate()
+                .with_min_len(CHUNK)
+                .map(one)
+                .reduce(|| false, |a, b| a | b)
+        };
+        if changed {
+            self.settle(t1, left);
+        }
+    }
+
+    /// Bodies that left let down what they carried; bodies that came to rest carry themselves again.
+    fn settle(&mut self, now: f64, left: &mut Vec<usize>) {
+        left.clear();
+        for (index, life) in self.lives.iter_mut().enumerate() {
+            match life.change.take() {
+                Some(Phase::Free) => left.push(index),
+                Some(Phase::Standing) => {
+                    let body = &mut self.bodies[index];
+                    body.velocity = DVec3::ZERO;
+                    body.angular_momentum = DVec3::ZERO;
+                    life.place = Place::new(body, life.extent, life.ground_friction);
+                    life.facts.rest_time = now - CALM_TIME;
+                    self.support.stand_up(index);
+                    self.phases[index] = Phase::Standing;
+                }
+                _ => {}
+            }
+        }
+        if left.is_empty() {
+            return;
+        }
+        self.support.leave(left);
+        for &index in left.iter() {
+            self.phases[index] = Phase::Free;
+            let life = &mut self.lives[index];
+            life.facts.rest_time = f64::NAN;
+            life.calm = 0.0;
+        }
+    }
+
+    fn record(&self, frame: usize, recording: &mut Recording) {
+        recording.times.push(frame as f64 / self.frame_rate);
+        let count = self.bodies.len();
+        for (index, (body, life)) in self.bodies.iter().zip(&self.lives).enumerate() {
+            recording.positions.push(body.position.as_vec3());
+            let rotation = (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
+            let before = (frame > 0).then(|| recording.orientations[(frame - 1) * count + index]);
+            let flips = before.map_or(rotation.w < 0.0, |b| b.dot(rotation) < 0.0);
+            recording.orientations.push(if flips { -rotation } else { rotation });
+        }
+    }
+}
+
+impl World {
+    /// One step of one body. Returns whether something between bodies has to be settled.
+    fn step(
+        &self,
+        body: &mut RigidBody,
+        phase: &mut Phase,
+        life: &mut Life,
+        normal_force: impl Fn() -> f64,
+        t0: f64,
+        t1: f64,
+    ) -> bool {
+        let changed = match phase {
+            Phase::Flying => {
+                body.fly(self.air, t1 - t0);
+                return self.land(body, life, t1 - t0);
+            }
+            Phase::Free => self.fly_loaded(body, life, t0, t1),
+            Phase::Standing if !life.queue.acts(t0, t1) => return false,
+            Phase::Standing | Phase::Sliding => self.stand(body, phase, life, normal_force(), t0, t1),
+            Phase::Anchored => {
+                if life.queue.acts(t0, t1) {
+                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+                    body.velocity = DVec3::ZERO;
+                    body.angular_momentum = DVec3::ZERO;
+                }
+                false
+            }
+        };
+        if !life.launched && life.queue.end <= t1 {
+            life.launched = true;
+            life.facts.launch_speed = body.velocity.length();
+        }
+        if *phase == Phase::Free && life.launched {
+            *phase = Phase::Flying;
+        }
+        changed
+    }
+
+    /// Puts panel loads and wind on a body's velocity and angular momentum; returns the impulse [N s].
+    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64) -> DVec3 {
+        let (impulse, angular) = queue.take(t0, t1);
+        body.push(impulse, angular);
+        let winds = Winds { winds: &queue.winds, air: self.air };
+        body.world_from_principal * impulse + body.blow(winds, t0, t1)
+    }
+
+    fn stand(
+        &self,
+        body: &mut RigidBody,
+        phase: &mut Phase,
+        life: &mut Life,
+        normal_force: f64,
+        t0: f64,
+        t1: f64,
+    ) -> bool {
+        let before = body.velocity;
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        match life.place.resist(body, before, normal_force, t1 - t0) {
+            Outcome::Holds => {
+                if *phase == Phase::Sliding {
+                    *phase = Phase::Standing;
+                    life.facts.rest_time = t1;
+                }
+            }
+            Outcome::Slides => {
+                *phase = Phase::Sliding;
+                life.facts.rest_time = f64::NAN;
+            }
+            Outcome::Leaves => {
+                life.change = Some(Phase::Free);
+                return true;
+            }
+        }
+        false
+    }
+
+    fn fly_loaded(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> bool {
+        let dt = t1 - t0;
+        let before = body.velocity;
+        let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
+        body.velocity += half_fall;
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        body.velocity += half_fall;
+        body.position += (before + body.velocity) * (0.5 * dt);
+        body.turn(dt);
+        self.land(body, life, dt)
+    }
+
+    /// Lets a body that has just moved meet the ground. Returns whether it has come to rest.
+    #[inline]
+    fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> bool {
+        let Some(ground) = self.ground.filter(|ground| ground.is_near(body)) else { return false };
+        let calm = ground.meet(body, &life.corners, life.ground_friction);
+        life.calm = if calm { life.calm + dt } else { 0.0 };
+        let rests = life.calm >= CALM_TIME;
+        if rests {
+            life.change = Some(Phase::Standing);
+        }
+        rests
+    }
+}
+
+impl Life {
+    /// `in_place` is the friction where the body stands at the start, `on_ground` against the ground.
+    fn new(target: Target, in_place: f64, on_ground: f64) -> Self {
+        let (low, high) = target.bounds;
+        let extent = (high.x - low.x).min(high.z - low.z);
+        Self {
+            place: Place::new(&target.body, extent, in_place),
+            launched: target.queue.end <= 0.0,
+            queue: target.queue,
+            corners: target.corners,
+            object_from_principal: target.object_from_principal,
+            extent,
+            ground_friction: on_ground,
+            calm: 0.0,
+            change: None,
+            facts: target.facts,
+        }
+    }
+
+    fn finish(mut self, body: &RigidBody) -> BodyFacts {
+        if !self.launched {
+            self.facts.launch_speed = body.velocity.length();
+        }
+        self.facts
+    }
+}
+
+/// One sentence a charge about bodies outside the range of its curves.
+fn reach_warnings(targets: &[Target], charges: usize) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for charge in 0..charges {
+        let count = |extension| targets.iter().filter(|t| t.reach[charge] == extension).count();
+        let near = count(Extension::Near);
+        if near > 0 {
+            warnings.push(format!(
+                "{near} of {} bodies are nearer to charge {charge} than its curves reach: the curves' innermost \
+                 values are held",
+                targets.len()
+            ));
+        }
+        let far = count(Extension::Far);
+        if far > 0 {
+            warnings.push(format!(
+                "{far} of {} bodies are farther from charge {charge} than its curves reach: the decay of a weak \
+                 shock continues them",
+                targets.len()
+            ));
+        }
+    }
+    warnings
+}
+
+fn hanging_warning(hanging: usize) -> Option<String> {
+    (hanging > 0).then(|| {
+        format!("{hanging} bodies stand on nothing: they are held in place until a blast moves them")
+    })
+}

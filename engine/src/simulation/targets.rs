@@ -1,0 +1,338 @@
+//! From a scene to targets: for each body, which loads come, when, and on which panels.
+
+use std::collections::BTreeMap;
+
+use glam::{DQuat, DVec3};
+use rayon::prelude::*;
+
+use crate::blast::{BlastField, BlastPoint, Extension};
+use crate::dynamics::RigidBody;
+use crate::error::Result;
+use crate::geometry::{PrincipalAxes, Silhouette};
+use crate::loading::{
+    Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
+};
+use crate::recording::BodyFacts;
+use crate::scene::{Body, Scene, Shape};
+
+/// A body made ready: its state, its loads and what is already known of it.
+pub(super) struct Target {
+    pub body: RigidBody,
+    pub object_from_principal: DQuat,
+    /// Outermost points in principal axes, relative to the centre of mass [m].
+    pub corners: Box<[DVec3]>,
+    /// Corners of the bounding box in the world [m].
+    pub bounds: (DVec3, DVec3),
+    pub queue: LoadQueue,
+    pub facts: BodyFacts,
+    /// Per charge: nearer than the curves reach, farther than they reach.
+    pub reach: Vec<Extension>,
+}
+
+/// The loads of one body in the order of their arrival.
+#[derive(Debug, Default)]
+pub(super) struct LoadQueue {
+    panels: Box<[PanelLoad]>,
+    /// Panels before this one have been loaded to the end.
+    next: usize,
+    pub winds: Box<[Wind]>,
+    /// When the first load arrives and the last one ends [s].
+    pub start: f64,
+    pub end: f64,
+}
+
+/// Load of one charge on one panel, with its lever on the body, in principal axes.
+#[derive(Debug)]
+struct PanelLoad {
+    history: FaceHistory,
+    /// Area × inward normal [m²].
+    push: DVec3,
+    /// Arm × push, with the art direction's rotation factor [m³].
+    twist: DVec3,
+}
+
+impl LoadQueue {
+    /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes.
+    pub fn take(&mut self, t0: f64, t1: f64) -> (DVec3, DVec3) {
+        let (mut impulse, mut angular) = (DVec3::ZERO, DVec3::ZERO);
+        for load in self.panels[self.next..].iter().take_while(|load| load.history.arrival() < t1) {
+            let strength = load.history.impulse(t0, t1);
+            impulse += load.push * strength;
+            angular += load.twist * strength;
+        }
+        while self.panels.get(self.next).is_some_and(|load| load.history.end() <= t1) {
+            self.next += 1;
+        }
+        (impulse, angular)
+    }
+
+    /// Whether any load acts between two times.
+    pub fn acts(&self, t0: f64, t1: f64) -> bool {
+        self.start < t1 && self.end > t0
+    }
+
+    /// The shortest load, for the choice of the step [s]; infinite without loads.
+    pub fn shortest(&self) -> f64 {
+        let panels = self.panels.iter().map(|l| l.history.end() - l.history.arrival());
+        let winds = self.winds.iter().map(|w| w.end - w.arrival);
+        panels.chain(winds).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A body's geometry in the world, before any load.
+struct Geometry {
+    body: RigidBody,
+    object_from_principal: DQuat,
+    /// In principal axes.
+    panels: Vec<Panel>,
+    corners: Box<[DVec3]>,
+    world_corners: Vec<DVec3>,
+}
+
+/// Makes every body of a scene ready. The order is that of the scene.
+pub(super) fn aim(scene: &Scene, fields: &[BlastField]) -> Result<Vec<Target>> {
+    let geometries: Vec<Geometry> = scene.bodies.par_iter().map(Geometry::of).collect::<Result<_>>()?;
+    let outlines = assembly_outlines(scene, fields, &geometries);
+    Ok(scene
+        .bodies
+        .par_iter()
+        .zip(geometries)
+        .enumerate()
+        .map(|(index, (body, geometry))| {
+            let assembly = body.assembly.map(|id| &outlines[&id][..]);
+            target(scene, fields, index, geometry, assembly)
+        })
+        .collect())
+}
+
+impl Geometry {
+    fn of(body: &Body) -> Result<Self> {
+        let properties = body.mass_properties()?;
+        let axes = PrincipalAxes::of(properties.inertia);
+        let into_principal = axes.object_from_principal.conjugate();
+        let (panels, corners) = match &body.shape {
+            Shape::Box { size, buried } => (box_panels(*size, *buried), box_corners(*size)),
+            Shape::Mesh(mesh) => {
+                let centred = mesh.extreme_points().into_iter().map(|p| p - properties.centre).collect();
+                (mesh_panels(mesh, properties.centre), centred)
+            }
+        };
+        let panels: Vec<Panel> = panels
+            .into_iter()
+            .map(|p| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p })
+            .collect();
+        let corners: Box<[DVec3]> = corners.into_iter().map(|p| into_principal * p).collect();
+        let areas = match body.shape {
+            Shape::Box { size, .. } => DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y),
+            Shape::Mesh(_) => panels.iter().map(|p| p.normal.abs() * (0.5 * p.area)).sum(),
+        };
+        let may_turn = body.can_rotate && !body.anchored;
+        let state = RigidBody {
+            position: body.position + body.orientation * properties.centre,
+            world_from_principal: (body.orientation * axes.object_from_principal).normalize(),
+            velocity: DVec3::ZERO,
+            angular_momentum: DVec3::ZERO,
+            inverse_mass: 1.0 / body.mass,
+            inverse_moments: if may_turn { axes.moments.recip() } else { DVec3::ZERO },
+            resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient),
+            reach: corners.iter().map(|c| c.length()).fold(0.0, f64::max),
+        };
+        let world_corners =
+            corners.iter().map(|&c| state.position + state.world_from_principal * c).collect();
+        Ok(Self {
+            body: state,
+            object_from_principal: axes.object_from_principal,
+            panels,
+            corners,
+            world_corners,
+        })
+    }
+
+    fn bounds(&self) -> (DVec3, DVec3) {
+        self.world_corners.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| {
+            (low.min(p), high.max(p))
+        })
+    }
+
+    /// Outline as seen from a place; edges on the ground are closed to the flow.
+    fn outline(&self, eye: DVec3, ground: Option<f64>) -> Silhouette {
+        outline(&self.world_corners, self.body.position, eye, ground)
+    }
+}
+
+fn box_corners(size: DVec3) -> Vec<DVec3> {
+    let half = size * 0.5;
+    (0..8)
+        .map(|code| {
+            let sign = |bit: u32| if code & bit == 0 { -1.0 } else { 1.0 };
+            half * DVec3::new(sign(1), sign(2), sign(4))
+        })
+        .collect()
+}
+
+fn outline(points: &[DVec3], middle: DVec3, eye: DVec3, ground: Option<f64>) -> Silhouette {
+    let direction = (middle - eye).try_normalize().unwrap_or(DVec3::Z);
+    let on_ground = |p: DVec3| ground.is_some_and(|height| p.y < height + 0.01);
+    Silhouette::new(points, direction, on_ground)
+}
+
+/// Outlines of every assembly, one a charge.
+fn assembly_outlines(
+    scene: &Scene,
+    fields: &[BlastField],
+    geometries: &[Geometry],
+) -> BTreeMap<u32, Vec<Silhouette>> {
+    let mut points: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
+    for (body, geometry) in scene.bodies.iter().zip(geometries) {
+        if let Some(id) = body.assembly {
+            points.entry(id).or_default().extend(&geometry.world_corners);
+        }
+    }
+    let ground = scene.ground.map(|g| g.height);
+    points
+        .into_iter()
+        .map(|(id, points)| {
+            let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+            (id, fields.iter().map(|f| outline(&points, middle, f.position(), ground)).collect())
+        })
+        .collect()
+}
+
+fn target(
+    scene: &Scene,
+    fields: &[BlastField],
+    index: usize,
+    geometry: Geometry,
+    assembly: Option<&[Silhouette]>,
+) -> Target {
+    let body = &scene.bodies[index];
+    let mut facts = BodyFacts {
+        mass: body.mass,
+        distance: f64::INFINITY,
+        arrival_time: f64::INFINITY,
+        attenuation: 1.0,
+        ..BodyFacts::default()
+    };
+    let mut loads = Vec::new();
+    let mut winds = Vec::new();
+    let mut reach = Vec::with_capacity(fields.len());
+    for (charge, field) in fields.iter().enumerate() {
+        let own = geometry.outline(field.position(), scene.ground.map(|g| g.height));
+        let around = assembly.map_or(&own, |outlines| &outlines[charge]);
+        let gain = scene.charges[charge].gain;
+        let aimed = Aim { scene, field, gain, body, geometry: &geometry, own: &own, around };
+        let centre = field.at(geometry.body.position);
+        let first = loads.len();
+        let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts);
+        reach.push(extension);
+        if loads.len() > first && scene.loading.drag == Drag::FlowRelative {
+            winds.push(aimed.wind(&centre));
+        }
+        if centre.distance < facts.distance {
+            facts.distance = centre.distance;
+            facts.frontal_area = frontal_area;
+        }
+        facts.arrival_time = facts.arrival_time.min(centre.arrival_time);
+    }
+    Target {
+        object_from_principal: geometry.object_from_principal,
+        bounds: geometry.bounds(),
+        corners: geometry.corners,
+        body: geometry.body,
+        queue: queue(loads, winds),
+        facts,
+        reach,
+    }
+}
+
+fn queue(mut panels: Vec<PanelLoad>, winds: Vec<Wind>) -> LoadQueue {
+    panels.sort_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
+    let starts = panels.iter().map(|l| l.history.arrival()).chain(winds.iter().map(|w| w.arrival));
+    let ends = panels.iter().map(|l| l.history.end()).chain(winds.iter().map(|w| w.end));
+    LoadQueue {
+        start: starts.fold(f64::INFINITY, f64::min),
+        end: ends.fold(f64::NEG_INFINITY, f64::max),
+        panels: panels.into(),
+        next: 0,
+        winds: winds.into(),
+    }
+}
+
+/// One charge aimed at one body.
+struct Aim<'a> {
+    scene: &'a Scene,
+    field: &'a BlastField,
+    gain: f64,
+    body: &'a Body,
+    geometry: &'a Geometry,
+    own: &'a Silhouette,
+    around: &'a Silhouette,
+}
+
+impl Aim<'_> {
+    /// Appends the load of every panel that has one; returns the frontal area and how far the curves were
+    /// stretched for it.
+    fn load_panels(&self, loads: &mut Vec<PanelLoad>, facts: &mut BodyFacts) -> (f64, Extension) {
+        let state = &self.geometry.body;
+        let half_width = 0.5 * self.own.least_width();
+        let lowest = self.scene.ground.map_or(f64::NEG_INFINITY, |g| g.height);
+        let settings = HistorySettings {
+            mode: self.scene.loading.mode,
+            drag: self.scene.loading.drag,
+            shape: self.scene.loading.pulse,
+            negative_phase: self.scene.loading.negative_phase,
+            gain: self.gain,
+        };
+        let mut frontal_area = 0.0;
+        let mut extension = Extension::Inside;
+        for panel in &self.geometry.panels {
+            let centre = state.position + state.world_from_principal * panel.centre;
+            let point = self.field.at(centre);
+            let cos_alpha = -(state.world_from_principal * panel.normal).dot(point.direction);
+            frontal_area += panel.area * cos_alpha.max(0.0);
+            let faces = cos_alpha > 0.0;
+            if centre.y < lowest || !(faces || settings.mode == LoadingMode::Surface) {
+                continue;
+            }
+            let clearing_length = self.scene.loading.clearing.length(centre, half_width, self.around);
+            let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
+            let drag_coefficient = self.body.drag_coefficient;
+            let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
+            if point.extension != Extension::Inside {
+                extension = point.extension;
+            }
+            facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
+            facts.peak_load = facts.peak_load.max(history.peak());
+            facts.arrival_time = facts.arrival_time.min(history.arrival());
+            let push = -panel.normal * panel.area;
+            let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
+            loads.push(PanelLoad { history, push, twist });
+        }
+        (frontal_area, extension)
+    }
+
+    fn wind(&self, centre: &BlastPoint) -> Wind {
+        let loading = &self.scene.loading;
+        let mut pulse = centre.pulse(loading.pulse);
+        pulse.negative = loading.negative_phase.then(|| self.field.negative_phase(centre.distance));
+        Wind::new(centre, pulse, &self.scene.air, self.gain)
+    }
+}
+
+/// Steps a load is resolved with when the step is left to the engine.
+const STEPS_A_LOAD: f64 = 8.0;
+/// Longest step the engine chooses [s].
+const LONGEST_STEP: f64 = 2e-3;
+/// Shortest step the engine chooses [s].
+const SHORTEST_STEP: f64 = 1e-5;
+
+/// Steps a frame: as many as the user asks for, or as resolve the shortest wind or load.
+pub(super) fn steps_per_frame(scene: &Scene, targets: &[Target]) -> usize {
+    let interval = 1.0 / scene.time.frame_rate;
+    let step = scene.time.step.unwrap_or_else(|| {
+        let shortest = targets.iter().map(|t| t.queue.shortest()).fold(f64::INFINITY, f64::min);
+        (shortest / STEPS_A_LOAD).clamp(SHORTEST_STEP, LONGEST_STEP)
+    });
+    (libm::ceil(interval / step - 1e-9) as usize).max(1)
+}
+

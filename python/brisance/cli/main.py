@@ -1,0 +1,125 @@
+"""The command itself: its subcommands, and how every way of ending becomes one sentence and an exit code.
+
+Exit codes: 0 done, 2 the user's input is wrong, 130 stopped by Ctrl-C, 1 anything else. The environment
+variable ``BRISANCE_TRACEBACK=1`` shows where an unexpected error came from.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from typing import Annotated, cast
+
+import typer
+
+from brisance.cli.curves import curves
+from brisance.cli.figure import figure
+from brisance.cli.inspect import inspect
+from brisance.cli.render import render
+from brisance.cli.run import run
+from brisance.errors import BrisanceError
+
+SPREAD = ("--distance",)
+"""Options that take every number that follows."""
+
+# Typer keeps the base of its usage errors private; BadParameter derives from it directly.
+_UsageError = cast(type[Exception], typer.BadParameter.__mro__[1])
+
+app = typer.Typer(name="brisance", add_completion=False, rich_markup_mode=None)
+for command in (run, inspect, curves, render, figure):
+    app.command()(command)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        import brisance
+
+        typer.echo(f"brisance {brisance.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _brisance(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
+    ] = False,
+) -> None:
+    """Explosions for animation: physically based blast, from a scene file to the flight of every piece.
+
+    \b
+    Example:
+      brisance run scenes/brick_wall.toml -o wall.usdc
+      brisance render wall.usdc -o wall.mp4
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with ``arguments`` (those of the process by default) and return its exit code."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = app(args=spread(given) or ["--help"], prog_name="brisance", standalone_mode=False)
+    except BrisanceError as error:
+        return _fail(str(error), error.exit_code)
+    except _UsageError as error:
+        return _usage(error)
+    except (KeyboardInterrupt, typer.Abort):
+        code = 130
+    except MemoryError:
+        return _fail("there is not enough memory for this; lower the number of frames or pieces.", 1)
+    except BrokenPipeError:
+        # The reader of our output has gone; nothing more can be said to it, not even at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception as error:
+        return _unexpected(error)
+    if code == 130:
+        return _fail("stopped.", 130)
+    return code if isinstance(code, int) else 0
+
+
+def spread(arguments: Sequence[str]) -> list[str]:
+    """Repeat the flag before each of several values: ``--distance 5 10`` becomes ``--distance 5 --distance
+    10``.
+    """
+    result: list[str] = []
+    flag = ""
+    for argument in arguments:
+        if argument.startswith("-") and not _is_number(argument):
+            flag = argument if argument in SPREAD else ""
+            result.append(argument)
+        elif flag and result[-1] != flag and _is_number(argument):
+            result += [flag, argument]
+        else:
+            result.append(argument)
+    return result
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _usage(error: Exception) -> int:
+    message = " ".join(str(getattr(error, "format_message", lambda: error)()).split())
+    context = getattr(error, "ctx", None)
+    command = context.command_path if context is not None else "brisance"
+    return _fail(f"{message.rstrip('.')}; see {command} --help.", 2)
+
+
+def _unexpected(error: Exception) -> int:
+    if os.environ.get("BRISANCE_TRACEBACK"):
+        traceback.print_exception(error)
+        return 1
+    what = " ".join(f"{type(error).__name__}: {error}".split())
+    return _fail(f"unexpected error, {what} (set BRISANCE_TRACEBACK=1 to see where).", 1)
+
+
+def _fail(sentence: str, code: int) -> int:
+    print(f"brisance: {sentence}", file=sys.stderr)
+    return code

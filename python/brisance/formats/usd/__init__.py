@@ -1,0 +1,184 @@
+"""USD: a result as a scene that opens in any USD tool.
+
+Two layouts hold the same thing. ``"prims"`` has one Mesh a piece under its object's Xform and is the one to edit;
+``"instancer"`` has one PointInstancer an object and is the one to keep thousands of pieces in. An object of a single
+piece is a Mesh in both.
+
+.. code-block:: text
+
+    /World                     brisance: version, seed, scene …
+      Materials/brick          preview surface; brick_broken for fracture surfaces
+      PhysicsScene             gravity
+      Ground                   purpose proxy
+      Charges/charge_0         purpose guide
+      Charges/shock_front_0    purpose guide, grows frame by frame
+      wall/wall_r0_c0 …        prims: a Mesh a piece          instancer: wall is a PointInstancer over wall/Prototypes
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from pxr import Sdf, Tf, Vt
+
+from brisance.errors import InputError
+from brisance.formats.atomic import check_writable, replacing
+from brisance.formats.usd import instancer_layout, physics, prims_layout
+from brisance.formats.usd.authoring import attribute
+from brisance.formats.usd.materials import author_materials
+from brisance.formats.usd.show import Show
+from brisance.formats.usd.surroundings import author_charges, author_ground
+
+if TYPE_CHECKING:
+    from brisance.result import Result
+
+LAYOUTS = ("auto", "prims", "instancer")
+"""What a caller may ask for."""
+
+MOST_PRIMS = 3000
+"""``"auto"`` uses the layout ``"prims"`` up to this many pieces.
+
+Measured on two cores with 121 frames, every piece a mesh of its own and moving for four fifths of them; write time,
+file size, and time to import in Blender 5.0:
+
+========= ======================= =======================
+pieces    prims                   instancer
+========= ======================= =======================
+1 000     0.6 s, 4.7 MB, 0.3 s    0.15 s, 2.3 MB, 0.3 s
+2 000     1.4 s, 9.3 MB, 0.7 s    0.3 s, 4.5 MB, 0.6 s
+5 000     4.2 s, 23 MB, 3.0 s     0.9 s, 11 MB, 2.3 s
+10 000    9.0 s, 47 MB, 5.9 s     1.9 s, 22 MB, 5.3 s
+========= ======================= =======================
+
+Where pieces share a mesh (bricks), the instancer writes 10 000 pieces in 0.2 s and imports in 0.03 s, as one object.
+"""
+
+SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+"""What a USD file's name may end in. ``.usda`` is text, ``.usd`` and ``.usdc`` are binary, ``.usdz`` is a package."""
+
+_T = Sdf.ValueTypeNames
+
+
+def write_usd(
+    result: Result,
+    path: Path | str,
+    *,
+    layout: str = "auto",
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write a result to a USD file, whole or not at all.
+
+    The same result gives the same bytes. Time codes are frame numbers, and a piece has keys only while it moves.
+
+    :param layout: ``"prims"``, ``"instancer"``, or ``"auto"``, which chooses by the number of pieces (:data:`MOST_PRIMS`).
+    :param progress: called with the pieces authored so far and all pieces.
+    :raises InputError: the name ends in something else than :data:`SUFFIXES`, the layout is unknown, or nothing can
+        be written there.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in SUFFIXES:
+        raise InputError(f"{path} does not name a USD file; let it end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}.")
+    check_writable(path)
+    layer = build_layer(result, layout=layout, progress=progress)
+    with replacing(path) as temporary:
+        if path.suffix.lower() == ".usdz":
+            _package(layer, temporary, name=path.stem)
+        else:
+            _export(layer, temporary)
+
+
+def build_layer(
+    result: Result, *, layout: str = "auto", progress: Callable[[int, int], None] | None = None
+) -> Sdf.Layer:
+    """Return a result as a layer in memory, for callers who want to add to it or not to write it at all."""
+    chosen = _choose(layout, pieces=result.positions.shape[1])
+    show = Show(result, progress)
+    layer = Sdf.Layer.CreateAnonymous(".usdc")
+    with Sdf.ChangeBlock():
+        _describe(layer, result)
+        world = Sdf.PrimSpec(layer, "World", Sdf.SpecifierDef, "Xform")
+        world.kind = "assembly"
+        _author_facts(world, result, chosen)
+        looks = list(dict.fromkeys(source.material for source in result.sources))
+        if result.scene.ground is not None:
+            looks.append("ground")
+        broken = any("broken" in mesh.groups for mesh in result.meshes)
+        author_materials(world, looks, broken=broken)
+        physics.author_scene(world)
+        author_ground(world, result)
+        author_charges(world, result)
+        for source in result.sources:
+            single = source.stop - source.start == 1
+            rooms = prims_layout if chosen == "prims" or single else instancer_layout
+            rooms.author_object(world, show, source)
+    return layer
+
+
+def _choose(layout: str, *, pieces: int) -> str:
+    if layout not in LAYOUTS:
+        raise InputError(f"layout {layout!r} is unknown; choose {', '.join(LAYOUTS[:-1])} or {LAYOUTS[-1]}.")
+    if layout == "auto":
+        return "prims" if pieces <= MOST_PRIMS else "instancer"
+    return layout
+
+
+def _describe(layer: Sdf.Layer, result: Result) -> None:
+    root = layer.pseudoRoot
+    root.SetInfo("upAxis", "Y")
+    root.SetInfo("metersPerUnit", 1.0)
+    root.SetInfo("kilogramsPerUnit", 1.0)
+    layer.defaultPrim = "World"
+    layer.timeCodesPerSecond = layer.framesPerSecond = result.frame_rate
+    layer.startTimeCode, layer.endTimeCode = 0.0, float(len(result.times) - 1)
+    layer.comment = f"Brisance {_version()}: {result.scene.name}, seed {result.scene.seed}"
+    layer.customLayerData = {
+        "brisance": {"version": _version(), "scene": result.scene.name, "seed": str(result.scene.seed)}
+    }
+
+
+def _author_facts(world: Sdf.PrimSpec, result: Result, layout: str) -> None:
+    scene = result.scene
+    attribute(world, "brisance:version", _T.String, _version(), uniform=True)
+    attribute(world, "brisance:scene", _T.String, scene.name, uniform=True)
+    attribute(world, "brisance:seed", _T.Int64, scene.seed, uniform=True)
+    attribute(world, "brisance:layout", _T.Token, layout, uniform=True)
+    attribute(world, "brisance:frame_rate", _T.Double, result.frame_rate, uniform=True)
+    attribute(world, "brisance:step_s", _T.Double, result.step_s, uniform=True)
+    attribute(world, "brisance:air_pressure_pa", _T.Double, scene.air.pressure, uniform=True)
+    attribute(world, "brisance:air_temperature_k", _T.Double, scene.air.temperature, uniform=True)
+    attribute(world, "brisance:warnings", _T.StringArray, Vt.StringArray(list(result.warnings)), uniform=True)
+
+
+def _version() -> str:
+    import brisance
+
+    return str(brisance.__version__)
+
+
+def _export(layer: Sdf.Layer, path: Path) -> None:
+    with _refusals(path):
+        if not layer.Export(str(path)):
+            raise InputError(f"{path} could not be written; check the free space on its disk.")
+
+
+def _package(layer: Sdf.Layer, path: Path, *, name: str) -> None:
+    from pxr import UsdUtils
+
+    with TemporaryDirectory() as folder:
+        inner = Path(folder) / f"{Tf.MakeValidIdentifier(name)}.usdc"
+        _export(layer, inner)
+        with _refusals(path):
+            if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(inner)), str(path)):
+                raise InputError(f"{path} could not be written; check the free space on its disk.")
+
+
+@contextmanager
+def _refusals(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except Tf.ErrorException as error:
+        raise InputError(f"{path} could not be written; check the free space on its disk.") from error

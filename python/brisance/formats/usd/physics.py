@@ -1,0 +1,57 @@
+"""UsdPhysics on the pieces, so that a downstream engine can take over.
+
+Every piece is a rigid body with its mass, its centre of mass at its own origin and a convex collider. The bodies are
+*kinematic*: a simulator follows the recorded keys, and whatever else it simulates is pushed by them. To hand the
+pieces over, start at the last frame and set ``physics:kinematicEnabled`` to false: ``physics:velocity`` and
+``physics:angularVelocity`` hold their motion at that moment, so they fly on as they flew. (A simulator reads these two
+only from bodies that are not kinematic.)
+"""
+
+from __future__ import annotations
+
+from pxr import Gf, Sdf
+
+from brisance.formats.usd.authoring import apply, attribute, define
+
+GRAVITY = 9.80665
+"""Acceleration of gravity [m/s²]."""
+
+_T = Sdf.ValueTypeNames
+
+
+def author_scene(world: Sdf.PrimSpec) -> None:
+    """Author the physics scene, which says which way and how hard gravity pulls."""
+    scene = define(world, "PhysicsScene", "PhysicsScene")
+    attribute(scene, "physics:gravityDirection", _T.Vector3f, Gf.Vec3f(0, -1, 0))
+    attribute(scene, "physics:gravityMagnitude", _T.Float, GRAVITY)
+
+
+def author_body(
+    prim: Sdf.PrimSpec, *, mass: float, velocity: Gf.Vec3f | None = None, spin: Gf.Vec3f | None = None
+) -> None:
+    """Make a Mesh a kinematic rigid body with a convex collider, and apply the schema that binds materials.
+
+    ``velocity`` [m/s] and ``spin`` [degrees/s], in the parent's axes, are those at the last frame.
+    """
+    apply(
+        prim,
+        "MaterialBindingAPI",
+        "PhysicsRigidBodyAPI",
+        "PhysicsMassAPI",
+        "PhysicsCollisionAPI",
+        "PhysicsMeshCollisionAPI",
+    )
+    attribute(prim, "physics:kinematicEnabled", _T.Bool, True)
+    attribute(prim, "physics:mass", _T.Float, mass)
+    attribute(prim, "physics:centerOfMass", _T.Point3f, Gf.Vec3f(0))
+    attribute(prim, "physics:approximation", _T.Token, "convexHull", uniform=True)
+    if velocity is not None:
+        attribute(prim, "physics:velocity", _T.Vector3f, velocity)
+    if spin is not None:
+        attribute(prim, "physics:angularVelocity", _T.Vector3f, spin)
+
+
+def author_static_collider(prim: Sdf.PrimSpec) -> None:
+    """Make a Mesh something to fall on: its triangles collide and never move."""
+    apply(prim, "MaterialBindingAPI", "PhysicsCollisionAPI", "PhysicsMeshCollisionAPI")
+    attribute(prim, "physics:approximation", _T.Token, "none", uniform=True)

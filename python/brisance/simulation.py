@@ -1,0 +1,200 @@
+"""From a scene to a result: build the engine's scene, run it, gather what it gives back."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+
+from brisance import _engine
+from brisance.curve_table import curve_source
+from brisance.errors import InputError
+from brisance.memory import check_fits
+from brisance.model import Scene, object_keys
+from brisance.objects import pieces
+from brisance.piece import PieceMesh, PieceSet
+from brisance.placement import check_charges, ground_warnings
+from brisance.result import Bodies, Result, Source
+
+PATIENCE = 1.0
+"""Seconds after which a long run begins to show its progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """A scene ready to run: the engine's own and the pieces it was given, in order."""
+
+    engine: _engine.Scene
+    sets: list[PieceSet]
+    warnings: list[str]
+
+    @property
+    def names(self) -> list[str]:
+        """Name of every body, in order."""
+        return [name for group in self.sets for name in group.names]
+
+    @property
+    def meshes(self) -> list[PieceMesh]:
+        """Mesh of every body, in order."""
+        return [mesh for group in self.sets for mesh in group.meshes]
+
+
+def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None) -> Result:
+    """Simulate a scene.
+
+    ``progress`` shows a bar on stderr once the run has taken a second. ``threads`` bounds the threads used, 1
+    or more; the result is the same to the last bit whatever it is. Raises :class:`InputError` where the scene
+    cannot be run: files that are missing, or more frames and pieces than memory holds, which is found out
+    before any work.
+    """
+    if threads is not None and threads < 1:
+        raise InputError(f"threads must be 1 or more, not {threads}.")
+    started = time.perf_counter()
+    check_fits(scene.time.frames, scene.piece_count)
+    built = build(scene)
+    ready = time.perf_counter()
+    with _Progress(progress) as bar:
+        recording = built.engine.simulate(threads=threads, progress=bar.update if progress else None)
+    result = _result(scene, built, recording)
+    result.timing_s = {
+        **recording.timing_s,
+        "load": ready - started + recording.timing_s.get("load", 0.0),
+        "total": time.perf_counter() - started,
+    }
+    return result
+
+
+def build(scene: Scene) -> Built:
+    """Hand a scene to the engine. Raises :class:`InputError` for whatever the engine or an object refuses."""
+    air, loading, ground = scene.air, scene.loading, scene.ground
+    try:
+        engine = _engine.Scene(
+            pressure=air.pressure,
+            temperature=air.temperature,
+            ground=(ground.height, ground.friction) if ground else None,
+            duration=scene.time.duration,
+            frame_rate=scene.time.frame_rate,
+            step=scene.time.step,
+            mode=loading.mode,
+            clearing=loading.clearing,
+            drag=loading.drag,
+            pulse=loading.pulse,
+            negative_phase=loading.negative_phase,
+            damping_factor=scene.dynamics.damping_factor,
+            rotation_factor=scene.dynamics.rotation_factor,
+        )
+        for charge in scene.charges:
+            engine.add_charge(
+                mass=charge.mass,
+                tnt_equivalence=charge.factor,
+                position=charge.position,
+                burst=charge.burst,
+                time=charge.time,
+                gain=charge.gain,
+                source=curve_source(charge.curves, base_folder=scene.base_folder),
+            )
+        sets = [pieces(obj, base_folder=scene.base_folder) for obj in scene.objects]
+        for group in sets:
+            group.add_to(engine)
+        centres = engine.centres_of_mass()
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    check_charges(scene, sets, centres)
+    built = Built(engine, sets, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
+    _check_names(scene, built)
+    return built
+
+
+def _check_names(scene: Scene, built: Built) -> None:
+    """Pieces go by name in every output, so no two may share one (a block may be called what a brick is)."""
+    owner: dict[str, str] = {}
+    for key, group in zip(object_keys(scene.objects), built.sets, strict=True):
+        for name in group.names:
+            if name in owner:
+                raise InputError(
+                    f"{key}: its piece {name!r} has the name of a piece of {owner[name]}; rename one of the objects."
+                )
+            owner[name] = key
+
+
+def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
+    warnings = [warning for group in sets for warning in group.warnings]
+    if scene.occlusion.enabled:
+        warnings.append(
+            "occlusion.enabled: this version computes no shelter, so every piece is loaded in full."
+        )
+    if scene.dynamics.contacts:
+        warnings.append(
+            "dynamics.contacts: in this version pieces meet only the ground and pass through each other."
+        )
+    if not sets:
+        warnings.append("The scene has no object for the blast to act on.")
+    return warnings
+
+
+def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
+    sources, start = [], 0
+    for group in built.sets:
+        sources.append(Source(group.name, group.material, start, start + len(group)))
+        start += len(group)
+    bodies = Bodies(
+        names=built.names,
+        source=[group.name for group in built.sets for _ in group.names],
+        mass_kg=recording.mass_kg,
+        frontal_area_m2=recording.frontal_area_m2,
+        distance_m=recording.distance_m,
+        arrival_time_s=recording.arrival_time_s,
+        peak_overpressure_pa=recording.peak_overpressure_pa,
+        peak_load_pa=recording.peak_load_pa,
+        impulse_n_s=recording.impulse_n_s,
+        attenuation=recording.attenuation,
+        launch_speed_m_s=recording.launch_speed_m_s,
+        rest_time_s=recording.rest_time_s,
+        final_position_m=recording.positions[-1].astype(np.float64),
+    )
+    return Result(
+        scene=scene,
+        times=recording.times,
+        positions=recording.positions,
+        orientations=recording.orientations,
+        meshes=built.meshes,
+        sources=sources,
+        bodies=bodies,
+        step_s=recording.step_s,
+        warnings=list(dict.fromkeys([*built.warnings, *recording.warnings])),
+    )
+
+
+class _Progress:
+    """A bar on stderr that appears only when the work has taken longer than a moment."""
+
+    def __init__(self, wanted: bool) -> None:
+        self._wanted = wanted
+        self._started = time.perf_counter()
+        self._bar: Any = None
+        self._task: Any = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def update(self, done: int, total: int) -> None:
+        """Show that ``done`` of ``total`` parts are done."""
+        if self._bar is None:
+            if not self._wanted or time.perf_counter() - self._started < PATIENCE:
+                return
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._bar = Progress(console=Console(stderr=True), transient=True)
+            self._task = self._bar.add_task("simulating", total=total)
+            self._bar.start()
+        self._bar.update(self._task, completed=done, total=total)
