@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::blast::{BlastField, Extension};
 use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
 use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Footing, GRAVITY, RigidBody, Support, Winds};
+use crate::dynamics::{Air, Carry, Footing, GRAVITY, RigidBody, Support, Winds};
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
@@ -31,7 +31,20 @@ pub struct Simulation {
     frames: usize,
     frame_rate: f64,
     steps_per_frame: usize,
+    /// Whether any body slid in the step before.
+    slid: bool,
     warnings: Vec<String>,
+}
+
+/// What of a step concerns other bodies; the gravest counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Concern {
+    /// Nothing.
+    Nothing,
+    /// A body slides on another, or stopped to.
+    Slides,
+    /// A body left its place or came to rest.
+    Settles,
 }
 
 /// What a body is doing.
@@ -67,6 +80,8 @@ struct Life {
     ground_friction: f64,
     /// For how long it has been lying calmly [s].
     calm: f64,
+    /// Impulse of friction in the last step [N s].
+    rubbed: DVec3,
     launched: bool,
     /// What the last step asks to be settled between the bodies.
     change: Option<Phase>,
@@ -127,6 +142,7 @@ impl Simulation {
             frames: scene.time.frames(),
             frame_rate: scene.time.frame_rate,
             steps_per_frame,
+            slid: false,
             warnings,
         })
     }
@@ -167,15 +183,16 @@ impl Simulation {
     fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
         let (world, support) = (&self.world, &self.support);
         let one = |(index, ((body, phase), life)): (usize, ((&mut RigidBody, &mut Phase), &mut Life))| {
-            world.step(body, phase, life, || support.normal_force(index), t0, t1)
+            world.step(body, phase, life, support.carry(index), t0, t1)
         };
-        let changed = if self.bodies.len() < WORTH_SHARING {
+        let concern = if self.bodies.len() < WORTH_SHARING {
             self.bodies
                 .iter_mut()
                 .zip(&mut self.phases)
                 .zip(&mut self.lives)
                 .enumerate()
-                .fold(false, |any, item| one(item) | any)
+                .map(one)
+                .fold(Concern::Nothing, Concern::max)
         } else {
             self.bodies
                 .par_iter_mut()
@@ -184,11 +201,17 @@ impl Simulation {
                 .enumerate()
                 .with_min_len(CHUNK)
                 .map(one)
-                .reduce(|| false, |a, b| a | b)
+                .reduce(|| Concern::Nothing, Concern::max)
         };
-        if changed {
+        if concern == Concern::Settles {
             self.settle(t1, left);
         }
+        let slides = concern >= Concern::Slides;
+        if slides || self.slid {
+            let (bodies, lives) = (&self.bodies, &self.lives);
+            self.support.pass_on(|i| bodies[i].velocity, |i| lives[i].rubbed);
+        }
+        self.slid = slides;
     }
 
     /// Bodies that left let down what they carried; bodies that came to rest carry themselves again.
@@ -235,31 +258,31 @@ impl Simulation {
 }
 
 impl World {
-    /// One step of one body. Returns whether something between bodies has to be settled.
+    /// One step of one body. Returns what of it concerns others.
     fn step(
         &self,
         body: &mut RigidBody,
         phase: &mut Phase,
         life: &mut Life,
-        normal_force: impl Fn() -> f64,
+        carry: &Carry,
         t0: f64,
         t1: f64,
-    ) -> bool {
-        let changed = match phase {
+    ) -> Concern {
+        let concern = match phase {
             Phase::Flying => {
                 body.fly(self.air, t1 - t0);
                 return self.land(body, life, t1 - t0);
             }
             Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Standing if !life.queue.acts(t0, t1) => return false,
-            Phase::Standing | Phase::Sliding => self.stand(body, phase, life, normal_force(), t0, t1),
+            Phase::Standing if !life.queue.acts(t0, t1) && !carry.is_moved() => return Concern::Nothing,
+            Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
                     life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
                 }
-                false
+                Concern::Nothing
             }
         };
         if !life.launched && life.queue.end <= t1 {
@@ -269,7 +292,7 @@ impl World {
         if *phase == Phase::Free && life.launched {
             *phase = Phase::Flying;
         }
-        changed
+        concern
     }
 
     /// Puts panel loads and wind on a body's velocity and angular momentum; returns the impulse [N s].
@@ -285,32 +308,35 @@ impl World {
         body: &mut RigidBody,
         phase: &mut Phase,
         life: &mut Life,
-        normal_force: f64,
+        carry: &Carry,
         t0: f64,
         t1: f64,
-    ) -> bool {
+    ) -> Concern {
         let before = body.velocity;
         life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
-        match life.place.resist(body, before, normal_force, t1 - t0) {
+        let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
+        life.rubbed = rubbed;
+        match outcome {
             Outcome::Holds => {
                 if *phase == Phase::Sliding {
                     *phase = Phase::Standing;
                     life.facts.rest_time = t1;
                 }
+                if rubbed == DVec3::ZERO { Concern::Nothing } else { Concern::Slides }
             }
             Outcome::Slides => {
                 *phase = Phase::Sliding;
                 life.facts.rest_time = f64::NAN;
+                Concern::Slides
             }
             Outcome::Leaves => {
                 life.change = Some(Phase::Free);
-                return true;
+                Concern::Settles
             }
         }
-        false
     }
 
-    fn fly_loaded(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> bool {
+    fn fly_loaded(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
         let dt = t1 - t0;
         let before = body.velocity;
         let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
@@ -322,17 +348,17 @@ impl World {
         self.land(body, life, dt)
     }
 
-    /// Lets a body that has just moved meet the ground. Returns whether it has come to rest.
+    /// Lets a body that has just moved meet the ground, and notices when it has come to rest.
     #[inline]
-    fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> bool {
-        let Some(ground) = self.ground.filter(|ground| ground.is_near(body)) else { return false };
+    fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> Concern {
+        let Some(ground) = self.ground.filter(|ground| ground.is_near(body)) else { return Concern::Nothing };
         let calm = ground.meet(body, &life.corners, life.ground_friction);
         life.calm = if calm { life.calm + dt } else { 0.0 };
-        let rests = life.calm >= CALM_TIME;
-        if rests {
-            life.change = Some(Phase::Standing);
+        if life.calm < CALM_TIME {
+            return Concern::Nothing;
         }
-        rests
+        life.change = Some(Phase::Standing);
+        Concern::Settles
     }
 }
 
@@ -350,6 +376,7 @@ impl Life {
             extent,
             ground_friction: on_ground,
             calm: 0.0,
+            rubbed: DVec3::ZERO,
             change: None,
             facts: target.facts,
         }

@@ -215,14 +215,15 @@ def test_the_painter_keeps_every_piece_in_the_picture_and_shows_what_is_nearest(
     result = wall.result(wall.BLOWN_APART)
     head_on = painter.View(azimuth=0.0, elevation=0.0)
     camera = painter.place_camera(result, [0], head_on, aspect=1.5)
-    local, colours = painter.lit(result, painter.world_triangles(result, 0), camera)
+    local, colours, pieces = painter.lit(result, painter.world_triangles(result, 0), camera)
     plane = local[:, :, :2] / -local[:, :, 2:]
     assert np.all(np.abs(plane) <= [camera.half_width, camera.half_height])
     raster = Raster(width=150, height=100, half_width=camera.half_width, half_height=camera.half_height)
-    raster.draw(local, colours)
-    # In the middle of the picture is the wall's front, half a brick nearer to the camera than its middle plane.
+    raster.draw(local, colours, pieces)
+    # In the middle of the picture is the wall's front, half a brick nearer than its middle plane.
     assert 1.0 / raster.nearness[50, 75] == pytest.approx(camera.position[2] - 0.05, rel=0.01)
-    assert raster.nearness[0, 0] == 0.0
+    assert raster.label[0, 0] == -1
+    assert set(np.unique(raster.label)) == {-1, *range(27)}
 
 
 def test_the_raster_shows_the_nearer_of_two_triangles_whatever_their_order() -> None:
@@ -230,10 +231,10 @@ def test_the_raster_shows_the_nearer_of_two_triangles_whatever_their_order() -> 
     near = 0.5 * far
     for order in ([far, near], [near, far]):
         raster = Raster(width=40, height=40, half_width=1.0, half_height=1.0)
-        raster.draw(np.array(order), np.array([[value[0, 2] == -1.0] * 3 for value in order], dtype=float))
-        assert raster.colour[20, 20] == pytest.approx([1.0, 1.0, 1.0])
+        raster.draw(np.array(order), np.zeros((2, 3)), np.array([int(-shape[0, 2]) for shape in order]))
+        assert raster.label[20, 20] == 1
         # A triangle seen under the same angles covers the same pixels: an eighth of the picture's 1600.
         assert np.count_nonzero(raster.nearness) == pytest.approx(200, abs=30)
     behind = Raster(width=40, height=40, half_width=1.0, half_height=1.0)
-    behind.draw(-far[None], np.ones((1, 3)))
+    behind.draw(-far[None], np.zeros((1, 3)), np.zeros(1, dtype=int))
     assert not behind.nearness.any()

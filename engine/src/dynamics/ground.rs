@@ -1,7 +1,8 @@
 //! A level plane that bodies fall on, bounce off, slide over and come to rest on.
 //!
 //! Bodies meet the plane one by one, not each other. The impulses at the touching corners are found by a few
-//! sweeps of projected Gauss–Seidel with Coulomb friction.
+//! sweeps with Coulomb friction, in each of which all corners act at once and share the work: no corner comes
+//! first, so that a mirrored body lands as its mirror image.
 
 use glam::DVec3;
 
@@ -22,7 +23,7 @@ const RESTITUTION: f64 = 0.2;
 const BOUNCE_SPEED: f64 = 0.3;
 /// Corners within this height above the plane count as touching when a body comes to rest [m].
 const TOUCH: f64 = 2e-3;
-const SWEEPS: usize = 8;
+const SWEEPS: usize = 16;
 /// A body that moves slower than this on three corners is as good as still [m/s].
 const CALM_SPEED: f64 = 0.05;
 /// How long a body must be calm to be at rest [s].
@@ -56,16 +57,20 @@ impl Ground {
                 .map(|&c| -body.velocity_at(offset(body, c)).y)
                 .fold(0.0, f64::max);
             let bounce = if arriving > BOUNCE_SPEED { RESTITUTION } else { 0.0 };
+            let reached = TOUCH.min(-0.5 * lowest);
             for sweep in 0..SWEEPS {
                 let restitution = if sweep == 0 { bounce } else { 0.0 };
-                let mut pushed = false;
-                for &corner in corners {
-                    if clearance(body, corner) < TOUCH.min(-0.5 * lowest) {
-                        pushed |= push_out(body, offset(body, corner), friction, restitution);
-                    }
-                }
-                if !pushed {
+                let still = *body;
+                let approaching = |c: &DVec3| {
+                    clearance(&still, *c) < reached && still.velocity_at(offset(&still, *c)).y < 0.0
+                };
+                let count = corners.iter().filter(|c| approaching(c)).count();
+                if count == 0 {
                     break;
+                }
+                for corner in corners.iter().filter(|c| approaching(c)) {
+                    let at = offset(&still, *corner);
+                    body.push_at(stopping(&still, at, friction, restitution) / count as f64, at);
                 }
             }
             body.position.y -= lowest;
@@ -76,22 +81,18 @@ impl Ground {
     }
 }
 
-/// Stops the approach of one corner, with friction up to the cone. Returns whether it was approaching.
-fn push_out(body: &mut RigidBody, offset: DVec3, friction: f64, restitution: f64) -> bool {
+/// The impulse that stops the approach of one corner, with friction up to the cone [N s].
+fn stopping(body: &RigidBody, offset: DVec3, friction: f64, restitution: f64) -> DVec3 {
     let velocity = body.velocity_at(offset);
-    if velocity.y >= 0.0 {
-        return false;
-    }
     let normal = -(1.0 + restitution) * velocity.y / mobility(body, offset, DVec3::Y);
-    body.push_at(DVec3::Y * normal, offset);
-    let sliding = body.velocity_at(offset).with_y(0.0);
+    let sliding = velocity.with_y(0.0);
     let speed = sliding.length();
-    if speed > 0.0 {
-        let along = sliding / speed;
-        let stop = speed / mobility(body, offset, along);
-        body.push_at(-along * stop.min(friction * normal), offset);
+    if speed == 0.0 {
+        return DVec3::Y * normal;
     }
-    true
+    let along = sliding / speed;
+    let stop = speed / mobility(body, offset, along);
+    DVec3::Y * normal - along * stop.min(friction * normal)
 }
 
 /// Velocity that a unit impulse along `direction` at `offset` gives that point [1/kg].

@@ -5,7 +5,8 @@
 //! - [`standing`]: friction that must be exceeded;
 //! - [`ground`]: a plane that bodies fall on.
 //!
-//! Each body moves on its own; only what stands on what couples them, and that is settled between steps.
+//! Each body moves on its own within a step; only what stands on what couples them, and that is settled between
+//! steps.
 //! This is what makes the result the same for any number of threads.
 
 mod body;
@@ -14,7 +15,7 @@ pub mod standing;
 mod support;
 
 pub use body::{Air, RigidBody, Winds};
-pub use support::{Footing, Support};
+pub use support::{Carry, Footing, Support};
 
 /// Acceleration of free fall [m/s²], along −y.
 pub const GRAVITY: f64 = 9.806_65;

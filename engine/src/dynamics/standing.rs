@@ -1,12 +1,14 @@
 //! A body in its place: held by friction until the load exceeds it, then sliding, then free.
 //!
-//! Friction is Coulomb's, in impulses over a step: what would move the body is used up first by up to `μ N dt`.
-//! This makes the threshold and the slowing of a sliding body the same for any step. N is the body's own weight
-//! and all that stands on it, so low bricks resist more (thesis 3.6, Fig. 3.7).
+//! Friction is Coulomb's, in impulses over a step: what would move the body against what carries it is used up
+//! first by up to `μ N dt`. This makes the threshold and the slowing of a sliding body the same for any step. N is
+//! the body's own weight and all that stands on it, so low bricks resist more (thesis 3.6, Fig. 3.7). Bricks that
+//! are pushed out together do not rub on each other, and what rubs is carried along: the friction acts back on
+//! the carrier one step later.
 
 use glam::{DQuat, DVec3};
 
-use super::RigidBody;
+use super::{Carry, RigidBody};
 
 /// A body tilted by more than this stands no longer: cos 5°.
 const TILT: f64 = 0.996_194_698_091_745_5;
@@ -49,26 +51,29 @@ impl Place {
         }
     }
 
-    /// Finishes a step of `dt` for a body whose loads have been applied to its velocity and angular momentum.
-    ///
-    /// `before` is its velocity at the start of the step, `normal_force` what it presses down with [N].
-    pub fn resist(&self, body: &mut RigidBody, before: DVec3, normal_force: f64, dt: f64) -> Outcome {
-        let weight = normal_force * dt;
+    /// Finishes a step of `dt` for a body whose loads have been applied to its velocity and angular momentum;
+    /// `before` is its velocity at the start of the step. Returns what came of it and the impulse of friction [N s].
+    pub fn resist(&self, body: &mut RigidBody, before: DVec3, carry: &Carry, dt: f64) -> (Outcome, DVec3) {
+        let weight = carry.normal_force * dt;
+        body.velocity += carry.reaction * body.inverse_mass;
         let upward = body.velocity.y / body.inverse_mass;
         if upward > weight {
             body.velocity.y -= weight * body.inverse_mass;
-            return self.advance(body, before, dt, Outcome::Leaves);
+            return (self.advance(body, before, dt, Outcome::Leaves), DVec3::ZERO);
         }
         body.velocity.y = 0.0;
         let grip = self.friction * (weight - upward);
-        body.velocity = shortened(body.velocity, grip * body.inverse_mass);
+        let pushed = body.velocity;
+        body.velocity = carry.velocity + shortened(pushed - carry.velocity, grip * body.inverse_mass);
+        let rubbed = (body.velocity - pushed) / body.inverse_mass;
         body.angular_momentum = shortened(body.angular_momentum, grip * self.grip);
         let turns = body.angular_momentum * body.inverse_moments != DVec3::ZERO;
-        if body.velocity == DVec3::ZERO && !turns {
+        let moves = turns || body.velocity != DVec3::ZERO;
+        if !moves {
             body.angular_momentum = DVec3::ZERO;
-            return self.advance(body, before, dt, Outcome::Holds);
         }
-        self.advance(body, before, dt, Outcome::Slides)
+        let outcome = if moves { Outcome::Slides } else { Outcome::Holds };
+        (self.advance(body, before, dt, outcome), rubbed)
     }
 
     fn advance(&self, body: &mut RigidBody, before: DVec3, dt: f64, outcome: Outcome) -> Outcome {

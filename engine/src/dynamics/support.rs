@@ -20,6 +20,24 @@ pub struct Footing {
     pub anchored: bool,
 }
 
+/// How a standing body is carried during a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Carry {
+    /// Force with which it presses on what carries it: its own weight and all that stands on it [N].
+    pub normal_force: f64,
+    /// Velocity of what carries it [m/s].
+    pub velocity: DVec3,
+    /// What the friction of bodies that stand on it gave it in the step before [N s].
+    pub reaction: DVec3,
+}
+
+impl Carry {
+    /// Whether what is above or below the body moves it.
+    pub fn is_moved(&self) -> bool {
+        self.velocity != DVec3::ZERO || self.reaction != DVec3::ZERO
+    }
+}
+
 /// The stack: who carries whom. A body that stands on nothing is held where it is until a blast frees it.
 #[derive(Debug, Clone)]
 pub struct Support {
@@ -29,7 +47,7 @@ pub struct Support {
     /// Bodies that carry this one, with the share of its weight that each takes.
     carriers: Vec<Vec<(usize, f64)>>,
     weight: Vec<f64>,
-    normal_force: Vec<f64>,
+    carry: Vec<Carry>,
     /// Bodies from the highest to the lowest.
     downward: Vec<usize>,
 }
@@ -53,16 +71,42 @@ impl Support {
             grounded,
             carriers,
             weight: footings.iter().map(|f| f.mass * GRAVITY).collect(),
-            normal_force: Vec::new(),
+            carry: vec![Carry::default(); count],
             downward,
         };
         support.settle_weights();
         support
     }
 
-    /// Force with which a standing body presses on what carries it: its own weight and all that stands on it [N].
-    pub fn normal_force(&self, body: usize) -> f64 {
-        self.normal_force[body]
+    /// How a body is carried.
+    pub fn carry(&self, body: usize) -> &Carry {
+        &self.carry[body]
+    }
+
+    /// Tells every standing body how what carries it now moves, and what friction above it did to it.
+    ///
+    /// `velocity` and `rubbed` give a body's velocity [m/s] and the impulse of friction on its foot [N s].
+    pub fn pass_on(&mut self, velocity: impl Fn(usize) -> DVec3, rubbed: impl Fn(usize) -> DVec3) {
+        for carry in &mut self.carry {
+            carry.reaction = DVec3::ZERO;
+        }
+        for body in 0..self.carry.len() {
+            if !self.standing[body] {
+                continue;
+            }
+            let friction = rubbed(body);
+            let mut carried = DVec3::ZERO;
+            // A body with a foot on the ground is not carried along by what else stands under it.
+            if !self.grounded[body] {
+                for &(carrier, share) in &self.carriers[body] {
+                    if self.standing[carrier] && !self.anchored[carrier] {
+                        carried += velocity(carrier) * share;
+                        self.carry[carrier].reaction -= friction * share;
+                    }
+                }
+            }
+            self.carry[body].velocity = carried.with_y(0.0);
+        }
     }
 
     /// Whether the body stands on the ground.
@@ -100,18 +144,20 @@ impl Support {
         self.standing[body] = true;
         self.grounded[body] = true;
         self.carriers[body].clear();
-        self.normal_force[body] = self.weight[body];
+        self.carry[body] = Carry { normal_force: self.weight[body], ..Carry::default() };
     }
 
     fn settle_weights(&mut self) {
-        self.normal_force.clone_from(&self.weight);
+        for (carry, weight) in self.carry.iter_mut().zip(&self.weight) {
+            carry.normal_force = *weight;
+        }
         for &body in &self.downward {
             if !self.standing[body] {
                 continue;
             }
-            let force = self.normal_force[body];
+            let force = self.carry[body].normal_force;
             for &(carrier, share) in &self.carriers[body] {
-                self.normal_force[carrier] += force * share;
+                self.carry[carrier].normal_force += force * share;
             }
         }
     }

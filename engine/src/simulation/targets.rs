@@ -71,11 +71,9 @@ impl LoadQueue {
         self.start < t1 && self.end > t0
     }
 
-    /// The shortest load, for the choice of the step [s]; infinite without loads.
-    pub fn shortest(&self) -> f64 {
-        let panels = self.panels.iter().map(|l| l.history.end() - l.history.arrival());
-        let winds = self.winds.iter().map(|w| w.end - w.arrival);
-        panels.chain(winds).fold(f64::INFINITY, f64::min)
+    /// How long loads act on the body, from the first to the last [s]; infinite without loads.
+    fn length(&self) -> f64 {
+        if self.start < self.end { self.end - self.start } else { f64::INFINITY }
     }
 }
 
@@ -319,18 +317,20 @@ impl Aim<'_> {
     }
 }
 
-/// Steps a load is resolved with when the step is left to the engine.
+/// Steps the loading of a body is resolved with when the step is left to the engine.
 const STEPS_A_LOAD: f64 = 8.0;
 /// Longest step the engine chooses [s].
 const LONGEST_STEP: f64 = 2e-3;
 /// Shortest step the engine chooses [s].
 const SHORTEST_STEP: f64 = 1e-5;
 
-/// Steps a frame: as many as the user asks for, or as resolve the shortest wind or load.
+/// Steps a frame: as many as the user asks for, or as resolve the shortest loading of a body.
+///
+/// Panel loads are integrated exactly over any step; what the step has to resolve is the wind on a moving body.
 pub(super) fn steps_per_frame(scene: &Scene, targets: &[Target]) -> usize {
     let interval = 1.0 / scene.time.frame_rate;
     let step = scene.time.step.unwrap_or_else(|| {
-        let shortest = targets.iter().map(|t| t.queue.shortest()).fold(f64::INFINITY, f64::min);
+        let shortest = targets.iter().map(|t| t.queue.length()).fold(f64::INFINITY, f64::min);
         (shortest / STEPS_A_LOAD).clamp(SHORTEST_STEP, LONGEST_STEP)
     });
     (libm::ceil(interval / step - 1e-9) as usize).max(1)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-LIGHT = np.array([-0.45, 0.75, 0.5]) / np.linalg.norm([-0.45, 0.75, 0.5])
+LIGHT = np.array([-0.4, 0.6, 0.7]) / np.linalg.norm([-0.4, 0.6, 0.7])
 """Direction to the light, in the camera's axes: from the upper left behind the viewer."""
 AMBIENT = 0.55
 """Brightness of a face turned away from the light."""
@@ -77,7 +77,7 @@ def draw_frames(
 
 
 def paint(result: Result, index: int, camera: CameraPose, *, size: tuple[int, int]) -> Array:
-    """All pieces of a result at one frame, and the ground with their shadows where the camera stands above it.
+    """All pieces at one frame, and the ground with their shadows where the camera stands above it.
 
     Returns the picture (height, width, 3), each colour 0 to 1, ``SAMPLES`` times ``size`` pixels each way.
     """
@@ -91,6 +91,7 @@ def paint(result: Result, index: int, camera: CameraPose, *, size: tuple[int, in
     world = world_triangles(result, index)
     draw_ground(raster, result, world, camera)
     raster.draw(*lit(result, world, camera))
+    raster.outline(0.45)
     return raster.colour
 
 
@@ -115,15 +116,17 @@ def triangles(mesh: PieceMesh) -> NDArray[np.int32]:
     return mesh.face_indices[np.array(fans, dtype=np.intp)]
 
 
-def lit(result: Result, world: list[Array], camera: CameraPose) -> tuple[Array, Array]:
-    """The triangles turned to the camera, in its axes (n, 3, 3), with their colours (n, 3)."""
+def lit(result: Result, world: list[Array], camera: CameraPose) -> tuple[Array, Array, NDArray[np.intp]]:
+    """The triangles turned to the camera, in its axes (n, 3, 3), their colours (n, 3) and pieces (n,)."""
     local = (np.concatenate(world) - camera.position) @ camera.world_from_camera[:3, :3]
-    bases = np.repeat(base_colours(result), [len(piece) for piece in world], axis=0)
+    pieces = np.repeat(np.arange(len(world)), [len(piece) for piece in world])
+    bases = base_colours(result)[pieces]
     normal = np.cross(local[:, 1] - local[:, 0], local[:, 2] - local[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
     front = (normal * local[:, 0]).sum(axis=1) < 0.0
     brightness = AMBIENT + (1.0 - AMBIENT) * np.clip(normal @ LIGHT, 0.0, None)
-    return local[front], np.clip(1.15 * bases * brightness[:, None], 0.0, 1.0)[front]
+    colours = np.clip(1.15 * bases * brightness[:, None], 0.0, 1.0)
+    return local[front], colours[front], pieces[front]
 
 
 def draw_ground(raster: Raster, result: Result, world: list[Array], camera: CameraPose) -> None:
@@ -138,11 +141,11 @@ def draw_ground(raster: Raster, result: Result, world: list[Array], camera: Came
     corners = np.concatenate(world)
     fallen = corners - light * ((corners[:, :, 1:2] - ground.height) / light[1])
     shadows = (fallen - camera.position) @ world_from_camera
-    raster.draw(shadows, np.broadcast_to(SHADOW, (len(shadows), 3)), flat=True)
+    raster.draw(shadows, np.broadcast_to(SHADOW, (len(shadows), 3)), np.full(len(shadows), -1))
 
 
 def base_colours(result: Result) -> Array:
-    """A colour (n, 3) for each piece: that of its material, a little lighter or darker from piece to piece."""
+    """A colour (n, 3) for each piece: that of its material, varied a little from piece to piece."""
     counts = [source.stop - source.start for source in result.sources]
     materials = np.repeat([COLOURS[source.material] for source in result.sources], counts, axis=0)
     tint = 1.0 + 0.07 * np.sin(12.9898 * np.arange(len(materials)))
