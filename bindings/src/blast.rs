@@ -60,7 +60,9 @@ impl Source {
                     arrival_time: take("arrival_time_s_kg13"),
                 };
                 if let Some(unknown) = columns.keys().min() {
-                    return Err(InputError::new_err(format!("the curve table's column {unknown} is not known")));
+                    return Err(InputError::new_err(format!(
+                        "the curve table's column {unknown} is not known"
+                    )));
                 }
                 table.validate().map_err(refused)?;
                 Ok(CurveSource::Table(Arc::new(table)))
@@ -94,11 +96,7 @@ pub fn pulse_shape(name: &str) -> PyResult<PulseShape> {
 }
 
 pub fn loading_mode(name: &str) -> PyResult<LoadingMode> {
-    choose(
-        "mode",
-        name,
-        &[("translational", LoadingMode::Translational), ("surface", LoadingMode::Surface)],
-    )
+    choose("mode", name, &[("translational", LoadingMode::Translational), ("surface", LoadingMode::Surface)])
 }
 
 pub fn drag(name: &str) -> PyResult<Drag> {
@@ -139,7 +137,9 @@ pub fn curves<'py>(
     let field = field(mass, tnt_equivalence, burst, source, pressure, temperature)?;
     let distances = floats(&distance);
     if let Some(bad) = distances.iter().find(|d| !(d.is_finite() && **d > 0.0)) {
-        return Err(InputError::new_err(format!("distance is {bad} m, but must be a finite number greater than 0")));
+        return Err(InputError::new_err(format!(
+            "distance is {bad} m, but must be a finite number greater than 0"
+        )));
     }
     let points: Vec<BlastPoint> = distances.iter().map(|&d| field.at_distance(d)).collect();
     let result = PyDict::new(py);
@@ -173,7 +173,8 @@ pub fn curves<'py>(
 
 /// Keys of `curves` that the source does not give itself.
 fn derived(field: &BlastField) -> Vec<&'static str> {
-    let mut names: Vec<&'static str> = field.curves().derived().iter().map(|quantity| key(*quantity)).collect();
+    let mut names: Vec<&'static str> =
+        field.curves().derived().iter().map(|quantity| key(*quantity)).collect();
     names.retain(|name| *name != "arrival_time_s");
     names.extend(["arrival_time_s", "density_kg_m3", "particle_velocity_m_s", "decay"]);
     names
@@ -236,7 +237,8 @@ pub fn reflection_chart(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let chart = chart();
     let result = PyDict::new(py);
     let flat: Vec<f64> = chart.coefficient.iter().flatten().copied().collect();
-    let coefficient = PyArray1::from_vec(py, flat).reshape([chart.overpressure.len(), chart.angle_deg.len()])?;
+    let coefficient =
+        PyArray1::from_vec(py, flat).reshape([chart.overpressure.len(), chart.angle_deg.len()])?;
     result.set_item("overpressure_pa", PyArray1::from_slice(py, &chart.overpressure))?;
     result.set_item("angle_deg", PyArray1::from_slice(py, &chart.angle_deg))?;
     result.set_item("coefficient", coefficient)?;
@@ -258,7 +260,9 @@ pub fn pulse<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     for (name, value) in [("peak [Pa]", peak), ("duration [s]", duration), ("impulse [Pa s]", impulse)] {
         if !(value.is_finite() && value > 0.0) {
-            return Err(InputError::new_err(format!("{name} is {value}, but must be a finite number greater than 0")));
+            return Err(InputError::new_err(format!(
+                "{name} is {value}, but must be a finite number greater than 0"
+            )));
         }
     }
     let mut pulse = Pulse::new(pulse_shape(shape)?, peak, duration, impulse);
@@ -287,8 +291,12 @@ pub fn rankine_hugoniot<'py>(
     let result = PyDict::new(py);
     result.set_item("front_velocity_m_s", map(overpressure, |p| Shock::behind(&air, p).front_velocity)?)?;
     result.set_item("density_kg_m3", map(overpressure, |p| Shock::behind(&air, p).density)?)?;
-    result.set_item("dynamic_pressure_pa", map(overpressure, |p| Shock::behind(&air, p).dynamic_pressure)?)?;
-    result.set_item("particle_velocity_m_s", map(overpressure, |p| Shock::behind(&air, p).particle_velocity)?)?;
+    result
+        .set_item("dynamic_pressure_pa", map(overpressure, |p| Shock::behind(&air, p).dynamic_pressure)?)?;
+    result.set_item(
+        "particle_velocity_m_s",
+        map(overpressure, |p| Shock::behind(&air, p).particle_velocity)?,
+    )?;
     result.set_item("reflected_pressure_pa", map(overpressure, |p| normal_reflection(&air, p))?)?;
     Ok(result)
 }

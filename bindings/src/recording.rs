@@ -27,7 +27,11 @@ impl Recording {
         PyArray1::from_iter(py, self.inner.facts.iter().map(fact))
     }
 
-    fn poses<'py>(&self, flat: Bound<'py, PyArray1<f32>>, width: usize) -> PyResult<Bound<'py, PyArray3<f32>>> {
+    fn poses<'py>(
+        &self,
+        flat: Bound<'py, PyArray1<f32>>,
+        width: usize,
+    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
         flat.reshape([self.inner.times.len(), self.inner.facts.len(), width])
     }
 }

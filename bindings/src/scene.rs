@@ -203,7 +203,12 @@ impl Scene {
 
     /// Runs the scene. `progress(done, total)` hears of frames; `threads` bounds the threads used.
     #[pyo3(signature = (*, threads=None, progress=None))]
-    fn simulate(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<Recording> {
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Recording> {
         let scene = &self.scene;
         py.detach(|| {
             let work = || run(scene, progress.as_ref());
@@ -251,7 +256,10 @@ fn run(scene: &EngineScene, progress: Option<&Py<PyAny>>) -> PyResult<Recording>
     }
 }
 
-fn mesh(vertices: &PyReadonlyArray2<'_, f64>, triangles: &PyReadonlyArray2<'_, i64>) -> PyResult<TriangleMesh> {
+fn mesh(
+    vertices: &PyReadonlyArray2<'_, f64>,
+    triangles: &PyReadonlyArray2<'_, i64>,
+) -> PyResult<TriangleMesh> {
     if triangles.shape()[1] != 3 {
         return Err(InputError::new_err("triangles must have the shape (t, 3)"));
     }
@@ -279,7 +287,8 @@ pub fn mass_properties<'py>(
     let solid = MassProperties::of_mesh(&mesh(&vertices, &triangles)?, 1.0).map_err(refused)?;
     let result = PyDict::new(py);
     result.set_item("volume_m3", solid.mass)?;
-    result.set_item("centre_m", rows_of_three(py, [solid.centre].into_iter()).call_method1("reshape", (3,))?)?;
+    result
+        .set_item("centre_m", rows_of_three(py, [solid.centre].into_iter()).call_method1("reshape", (3,))?)?;
     let inertia = solid.inertia;
     let rows = [inertia.x_axis, inertia.y_axis, inertia.z_axis];
     result.set_item("inertia_per_density", rows_of_three(py, rows.into_iter()))?;

@@ -119,7 +119,8 @@ impl Simulation {
             ));
         }
         let bodies: Vec<RigidBody> = targets.iter().map(|target| target.body).collect();
-        let phases = footings.iter().map(|f| if f.anchored { Phase::Anchored } else { Phase::Standing }).collect();
+        let phases =
+            footings.iter().map(|f| if f.anchored { Phase::Anchored } else { Phase::Standing }).collect();
         let lives = targets
             .into_iter()
             .zip(&scene.bodies)
@@ -249,7 +250,8 @@ impl Simulation {
         let count = self.bodies.len();
         for (index, (body, life)) in self.bodies.iter().zip(&self.lives).enumerate() {
             recording.positions.push(body.position.as_vec3());
-            let rotation = (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
+            let rotation =
+                (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
             let before = (frame > 0).then(|| recording.orientations[(frame - 1) * count + index]);
             let flips = before.map_or(rotation.w < 0.0, |b| b.dot(rotation) < 0.0);
             recording.orientations.push(if flips { -rotation } else { rotation });

@@ -45,7 +45,8 @@ impl Ground {
     /// relative to the centre of mass [m]. Returns whether it lies calmly on three corners or more.
     pub fn meet(&self, body: &mut RigidBody, corners: &[DVec3], friction: f64) -> bool {
         let offset = |body: &RigidBody, corner: DVec3| body.world_from_principal * corner;
-        let clearance = |body: &RigidBody, corner: DVec3| body.position.y + offset(body, corner).y - self.height;
+        let clearance =
+            |body: &RigidBody, corner: DVec3| body.position.y + offset(body, corner).y - self.height;
         let lowest = corners.iter().map(|&c| clearance(body, c)).fold(f64::INFINITY, f64::min);
         if lowest > TOUCH {
             return false;

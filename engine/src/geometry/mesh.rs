@@ -53,9 +53,7 @@ impl TriangleMesh {
                 continue;
             }
             let farthest = (0..self.vertices.len())
-                .max_by(|&a, &b| {
-                    direction.dot(self.vertices[a]).total_cmp(&direction.dot(self.vertices[b]))
-                })
+                .max_by(|&a, &b| direction.dot(self.vertices[a]).total_cmp(&direction.dot(self.vertices[b])))
                 .expect("a mesh has vertices");
             if !chosen.contains(&farthest) {
                 chosen.push(farthest);

@@ -173,7 +173,8 @@ impl Resistance {
         let flow = w / speed;
         let along = flow.dot(normal);
         let across = normal - flow * along;
-        let turned = w - across * (half_density_dt * lift.coefficient * self.areas[axis] * along * speed * speed);
+        let turned =
+            w - across * (half_density_dt * lift.coefficient * self.areas[axis] * along * speed * speed);
         turned * (speed / turned.length())
     }
 }

@@ -116,7 +116,7 @@ impl FaceHistory {
                 drag = drag_pressure(field, point, cos_alpha, drag_coefficient, settings.drag);
             }
             Face::Rear { clearing_length } => {
-                relief = 3.0 * clearing_length / field.air().sound_speed() * -cos_alpha;
+                relief = 3.0 * clearing_length / field.air().sound_speed() * cos_alpha.abs();
             }
         }
         incident.peak *= gain;
@@ -159,10 +159,10 @@ impl FaceHistory {
         }
         let weight = (1.0 - since / self.relief).max(0.0);
         let incident = if self.static_pressure { self.incident.value(since) } else { 0.0 };
-        if !self.front {
-            return incident * (1.0 - weight);
-        }
         let positive = if since < self.incident.duration { self.incident.value(since) } else { 0.0 };
+        if !self.front {
+            return incident - positive * weight;
+        }
         let phi = positive / self.incident.peak;
         let drag = phi * phi * (self.drag[0] + self.drag[1] * phi);
         let flow = if self.steady_drag { drag } else { 0.0 };
@@ -191,7 +191,8 @@ impl FaceHistory {
         let relieved = to.min(self.relief);
         if relieved > from {
             let slope = 1.0 / self.relief;
-            sum += weighted(&self.reflected, from, relieved, slope) - self.drag_impulse(from, relieved, slope);
+            sum +=
+                weighted(&self.reflected, from, relieved, slope) - self.drag_impulse(from, relieved, slope);
             if self.static_pressure {
                 sum -= weighted(&self.incident, from, relieved, slope);
             }
@@ -265,7 +266,13 @@ fn oblique_impulse(field: &BlastField, point: &BlastPoint, coefficient: f64) -> 
 ///
 /// The thesis puts C_D·q on every panel that faces the charge; in a flow that is followed as such, only the
 /// part normal to the panel stagnates, cos²α of it.
-fn drag_pressure(field: &BlastField, point: &BlastPoint, cos_alpha: f64, coefficient: f64, drag: Drag) -> [f64; 2] {
+fn drag_pressure(
+    field: &BlastField,
+    point: &BlastPoint,
+    cos_alpha: f64,
+    coefficient: f64,
+    drag: Drag,
+) -> [f64; 2] {
     let normal = match drag {
         Drag::Thesis => 1.0,
         Drag::FlowRelative => cos_alpha * cos_alpha,

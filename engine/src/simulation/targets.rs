@@ -147,9 +147,9 @@ impl Geometry {
     }
 
     fn bounds(&self) -> (DVec3, DVec3) {
-        self.world_corners.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| {
-            (low.min(p), high.max(p))
-        })
+        self.world_corners
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
     }
 
     /// Outline as seen from a place; edges on the ground are closed to the flow.
@@ -335,4 +335,3 @@ pub(super) fn steps_per_frame(scene: &Scene, targets: &[Target]) -> usize {
     });
     (libm::ceil(interval / step - 1e-9) as usize).max(1)
 }
-
