@@ -120,6 +120,9 @@ fn field(
     BlastField::new(&charge, &Air { pressure, temperature, ..Air::default() }).map_err(refused)
 }
 
+/// Reads one quantity off a point of the field.
+type Column = fn(&BlastPoint) -> f64;
+
 /// The curves at distances [m] from a charge: a dictionary of arrays, keys with units.
 #[pyfunction]
 #[pyo3(signature = (*, mass, distance, tnt_equivalence=1.0, burst="air", source=None, pressure=101_325.0, temperature=288.15))]
@@ -143,7 +146,7 @@ pub fn curves<'py>(
     }
     let points: Vec<BlastPoint> = distances.iter().map(|&d| field.at_distance(d)).collect();
     let result = PyDict::new(py);
-    let columns: [(&str, fn(&BlastPoint) -> f64); 13] = [
+    let columns: [(&str, Column); 13] = [
         ("distance_m", |p| p.distance),
         ("scaled_distance_m_kg13", |p| p.scaled_distance),
         ("overpressure_pa", |p| p.overpressure),

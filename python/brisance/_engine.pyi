@@ -1,13 +1,28 @@
 """The compiled engine: keyword-only functions, numpy in and out, SI units."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Self, TypeAlias, final
 
-from numpy import bool_, float32, float64
+from numpy import bool_, float32, float64, int64
 from numpy.typing import ArrayLike, NDArray
 
 _Burst: TypeAlias = Literal["air", "surface"]
+_Pulse: TypeAlias = Literal["friedlander", "triangle-duration", "triangle-impulse"]
 _Source: TypeAlias = str | Mapping[str, NDArray[float64]]
+
+__all__ = [
+    "Recording",
+    "Scene",
+    "curves",
+    "explosives",
+    "face_history",
+    "front_radius",
+    "mass_properties",
+    "pulse",
+    "rankine_hugoniot",
+    "reflection_chart",
+    "reflection_coefficient",
+]
 
 def curves(
     *,
@@ -15,7 +30,7 @@ def curves(
     distance: NDArray[float64],
     tnt_equivalence: float = 1.0,
     burst: _Burst = "air",
-    source: _Source = "kingery-bulmash",
+    source: _Source | None = None,
     pressure: float = 101325.0,
     temperature: float = 288.15,
 ) -> dict[str, Any]: ...
@@ -28,7 +43,7 @@ def pulse(
     peak: float,
     duration: float,
     impulse: float,
-    shape: Literal["friedlander", "triangle-duration", "triangle-impulse"] = "friedlander",
+    shape: _Pulse = "friedlander",
     times: NDArray[float64],
     negative: tuple[float, float] | None = None,
 ) -> dict[str, Any]: ...
@@ -38,7 +53,7 @@ def front_radius(
     times: NDArray[float64],
     tnt_equivalence: float = 1.0,
     burst: _Burst = "air",
-    source: _Source = "kingery-bulmash",
+    source: _Source | None = None,
     pressure: float = 101325.0,
     temperature: float = 288.15,
 ) -> NDArray[float64]: ...
@@ -59,14 +74,18 @@ def face_history(
     times: NDArray[float64],
     tnt_equivalence: float = 1.0,
     burst: _Burst = "air",
-    source: _Source = "kingery-bulmash",
+    source: _Source | None = None,
     pressure: float = 101325.0,
     temperature: float = 288.15,
+    pulse: _Pulse = "friedlander",
+    negative_phase: bool = False,
 ) -> NDArray[float64]: ...
+def mass_properties(*, vertices: NDArray[float64], triangles: NDArray[int64]) -> dict[str, Any]: ...
 
+@final
 class Scene:
-    def __init__(
-        self,
+    def __new__(
+        cls,
         *,
         pressure: float,
         temperature: float,
@@ -77,11 +96,11 @@ class Scene:
         mode: Literal["translational", "surface"],
         clearing: str | float,
         drag: Literal["flow-relative", "thesis"],
-        pulse: Literal["friedlander", "triangle-duration", "triangle-impulse"],
+        pulse: _Pulse,
         negative_phase: bool,
         damping_factor: float,
         rotation_factor: float,
-    ) -> None: ...
+    ) -> Self: ...
     def add_charge(
         self,
         *,
@@ -112,7 +131,7 @@ class Scene:
         self,
         *,
         vertices: NDArray[float64],
-        triangles: NDArray[Any],
+        triangles: NDArray[int64],
         position: tuple[float, float, float],
         orientation: tuple[float, float, float, float],
         mass: float,
@@ -127,20 +146,37 @@ class Scene:
         self, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
     ) -> Recording: ...
 
+@final
 class Recording:
-    times: NDArray[float64]
-    positions: NDArray[float32]
-    orientations: NDArray[float32]
-    mass_kg: NDArray[float64]
-    frontal_area_m2: NDArray[float64]
-    distance_m: NDArray[float64]
-    arrival_time_s: NDArray[float64]
-    peak_overpressure_pa: NDArray[float64]
-    peak_load_pa: NDArray[float64]
-    impulse_n_s: NDArray[float64]
-    attenuation: NDArray[float64]
-    launch_speed_m_s: NDArray[float64]
-    rest_time_s: NDArray[float64]
-    step_s: float
-    warnings: list[str]
-    timing_s: dict[str, float]
+    @property
+    def times(self) -> NDArray[float64]: ...
+    @property
+    def positions(self) -> NDArray[float32]: ...
+    @property
+    def orientations(self) -> NDArray[float32]: ...
+    @property
+    def mass_kg(self) -> NDArray[float64]: ...
+    @property
+    def frontal_area_m2(self) -> NDArray[float64]: ...
+    @property
+    def distance_m(self) -> NDArray[float64]: ...
+    @property
+    def arrival_time_s(self) -> NDArray[float64]: ...
+    @property
+    def peak_overpressure_pa(self) -> NDArray[float64]: ...
+    @property
+    def peak_load_pa(self) -> NDArray[float64]: ...
+    @property
+    def impulse_n_s(self) -> NDArray[float64]: ...
+    @property
+    def attenuation(self) -> NDArray[float64]: ...
+    @property
+    def launch_speed_m_s(self) -> NDArray[float64]: ...
+    @property
+    def rest_time_s(self) -> NDArray[float64]: ...
+    @property
+    def step_s(self) -> float: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def timing_s(self) -> dict[str, float]: ...

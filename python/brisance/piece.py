@@ -6,7 +6,7 @@ together: what the engine is given about them and what a writer shows of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -58,6 +58,8 @@ class PieceSet:
     """Adds the pieces' bodies to an engine scene, in the order of ``names``."""
     warnings: list[str] = field(default_factory=list)
     """One sentence for each approximation that was made of the object."""
+    encloses: Callable[[Sequence[float]], bool] | None = None
+    """Whether a point of the world [m] lies inside a piece; None where the object's own keys tell."""
 
     def __len__(self) -> int:
         return len(self.names)

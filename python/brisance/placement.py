@@ -10,35 +10,28 @@ from numpy.typing import NDArray
 
 from brisance.errors import InputError
 from brisance.model import AnyObject, BrickWall, MeshObject, Scene
-from brisance.piece import PieceMesh, PieceSet
+from brisance.piece import PieceSet
 from brisance.rotation import rotate
 
 SUNK = 1e-3
 """Depth [m] below the ground from which on a body counts as sunk into it."""
 
 
-def check_charges(scene: Scene, sets: Sequence[PieceSet], centres: NDArray[np.float64]) -> None:
-    """Raise :class:`InputError` if a charge is inside a mesh; boxes and walls are the model's own check.
-
-    ``centres`` (B, 3) are the bodies' centres of mass in their objects' own frames [m].
-    """
-    start = 0
-    for obj, group in zip(scene.objects, sets, strict=True):
-        if isinstance(obj, MeshObject):
-            from brisance.objects.mesh import mesh_contains
-
-            points, triangles = group.meshes[0].points, fans(group.meshes[0])
-            for number, charge in enumerate(scene.charges):
-                inside = np.asarray(obj.to_own_frame(charge.position)) - centres[start]
-                if mesh_contains(points, triangles, inside):
-                    raise InputError(
-                        f"charge.{number}.position is inside the mesh {obj.name!r}; move one of them."
-                    )
-        start += len(group)
+def check_charges(scene: Scene, sets: Sequence[PieceSet]) -> None:
+    """Raise :class:`InputError` if a charge is inside a mesh; boxes and walls are the model's own check."""
+    for group in sets:
+        for number, charge in enumerate(scene.charges):
+            if group.encloses is not None and group.encloses(charge.position):
+                raise InputError(
+                    f"charge.{number}.position is inside the mesh {group.name!r}; move one of them."
+                )
 
 
 def ground_warnings(scene: Scene, sets: Sequence[PieceSet], centres: NDArray[np.float64]) -> list[str]:
-    """One sentence for each object that begins partly below the ground."""
+    """One sentence for each object that begins partly below the ground.
+
+    ``centres`` (B, 3) are the bodies' centres of mass in their objects' own frames [m].
+    """
     if scene.ground is None:
         return []
     warnings = []
@@ -51,19 +44,6 @@ def ground_warnings(scene: Scene, sets: Sequence[PieceSet], centres: NDArray[np.
                 f"{obj.name} begins {depth:.3g} m below the ground; raise its position to let it rest there."
             )
     return warnings
-
-
-def fans(mesh: PieceMesh) -> NDArray[np.int64]:
-    """(t, 3) triangles of a mesh: each face as a fan around its first corner, so that solid angles add up."""
-    first = np.cumsum(mesh.face_counts) - mesh.face_counts
-    per_face = mesh.face_counts - 2
-    face = np.repeat(np.arange(len(per_face)), per_face)
-    step = np.arange(len(face)) - np.repeat(np.cumsum(per_face) - per_face, per_face)
-    corner = first[face]
-    triangles: NDArray[np.int64] = mesh.face_indices[
-        np.column_stack([corner, corner + step + 1, corner + step + 2])
-    ]
-    return triangles.astype(np.int64)
 
 
 def _lowest(obj: AnyObject, group: PieceSet, centre: NDArray[np.float64]) -> float:

@@ -1,8 +1,8 @@
 """Rotations as a person types them (degrees about the axes) and as the engine takes them (unit quaternions).
 
-Three angles mean: turn about the fixed x axis first, then about the fixed y axis, then about the fixed z axis,
-so the matrix is ``Rz @ Ry @ Rx``. Quaternions are ``w, x, y, z``. A positive angle turns counter-clockwise seen
-with the axis pointing at the viewer (right-handed).
+Three angles mean: turn about the fixed x axis first, then about the fixed y axis, then about the fixed z
+axis, so the matrix is ``Rz @ Ry @ Rx``. Quaternions are ``w, x, y, z``. A positive angle turns
+counter-clockwise seen with the axis pointing at the viewer (right-handed).
 """
 
 from __future__ import annotations

@@ -152,7 +152,8 @@ def _step(place: Any, part: str, above: str, key: str, *, create: bool) -> Any:
         if int(part) >= len(place):
             raise InputError(
                 f"--set {key}: the number after {above} must be "
-                f"{'0' if len(place) == 1 else f'0 to {len(place) - 1}'}, for the file holds {len(place)}, not {part}."
+                f"{'0' if len(place) == 1 else f'0 to {len(place) - 1}'}, for the file holds {len(place)}, "
+                f"not {part}."
             )
         return place[int(part)]
     if not isinstance(place, dict):

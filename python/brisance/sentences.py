@@ -66,8 +66,11 @@ def first_problem(error: ValidationError, model: type[BaseModel]) -> Problem:
 def nearest(word: str, known: list[str]) -> str | None:
     """The known word that was probably meant, if any is near."""
     folded = {name.casefold().replace("-", "_"): name for name in known}
-    matches = difflib.get_close_matches(word.casefold().replace("-", "_"), folded, n=1, cutoff=0.6)
-    return folded[matches[0]] if matches else None
+    plain = word.casefold().replace("-", "_")
+    matches = difflib.get_close_matches(plain, folded, n=1, cutoff=0.6)
+    begun = [name for name in folded if len(plain) > 1 and name.startswith(plain)]
+    found = matches or (begun if len(begun) == 1 else [])
+    return folded[found[0]] if found else None
 
 
 def value_text(value: Any) -> str:

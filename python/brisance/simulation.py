@@ -19,6 +19,8 @@ from brisance.piece import PieceMesh, PieceSet
 from brisance.placement import check_charges, ground_warnings
 from brisance.result import Bodies, Result, Source
 
+MAX_STEPS = 10**10
+"""Steps of integration beyond which a run would take days, so that the step is surely a slip."""
 PATIENCE = 1.0
 """Seconds after which a long run begins to show its progress."""
 
@@ -54,6 +56,7 @@ def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None
         raise InputError(f"threads must be 1 or more, not {threads}.")
     started = time.perf_counter()
     check_fits(scene.time.frames, scene.piece_count)
+    _check_step(scene)
     built = build(scene)
     ready = time.perf_counter()
     with _Progress(progress) as bar:
@@ -102,10 +105,19 @@ def build(scene: Scene) -> Built:
         centres = engine.centres_of_mass()
     except ValueError as error:
         raise InputError(str(error)) from error
-    check_charges(scene, sets, centres)
+    check_charges(scene, sets)
     built = Built(engine, sets, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
     _check_names(scene, built)
     return built
+
+
+def _check_step(scene: Scene) -> None:
+    step, duration = scene.time.step, scene.time.duration
+    if step is not None and step * MAX_STEPS < duration:
+        raise InputError(
+            f"time.step must be at least {duration / MAX_STEPS:.3g} s for a duration of {duration:g} s, "
+            f"not {step:g}; leave it out to have it chosen."
+        )
 
 
 def _check_names(scene: Scene, built: Built) -> None:
@@ -115,7 +127,8 @@ def _check_names(scene: Scene, built: Built) -> None:
         for name in group.names:
             if name in owner:
                 raise InputError(
-                    f"{key}: its piece {name!r} has the name of a piece of {owner[name]}; rename one of the objects."
+                    f"{key}: its piece {name!r} has the name of a piece of {owner[name]}; "
+                    "rename one of the objects."
                 )
             owner[name] = key
 
@@ -194,7 +207,8 @@ class _Progress:
             from rich.console import Console
             from rich.progress import Progress
 
-            self._bar = Progress(console=Console(stderr=True), transient=True)
+            console = Console(stderr=True)
+            self._bar = Progress(console=console, transient=True, disable=not console.is_terminal)
             self._task = self._bar.add_task("simulating", total=total)
             self._bar.start()
         self._bar.update(self._task, completed=done, total=total)

@@ -1,4 +1,4 @@
-"""Results made by hand, for tests of what comes after the simulation: boxes thrown on parabolas, with known poses."""
+"""Results made by hand, for tests of what comes after the simulation: boxes thrown on known parabolas."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def box_mesh(
     broken: Sequence[int] = (),
     uvs: bool = True,
 ) -> PieceMesh:
-    """A box about its centre [m]: faces -x, +x, -y, +y, -z, +z, of which ``broken`` are in the group of that name."""
+    """A box about its centre [m]: faces -x, +x, -y, +y, -z, +z; those in ``broken`` form a group."""
     corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float32)
     loops = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3]
     square = np.tile(np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=np.float32), (6, 1))
@@ -83,8 +83,9 @@ def synthetic_result(
 ) -> SyntheticResult:
     """A result of thrown boxes.
 
-    ``sources`` are (name, material, pieces) of each object, one brick wall when left out; ``meshes`` one a piece, one
-    shared brick when left out. Even pieces weigh 10 kg and never rest, odd ones weigh 5 kg and rest at 0.25 s.
+    ``sources`` are (name, material, pieces) of each object, one brick wall when left out; ``meshes`` one a
+    piece, one shared brick when left out. Even pieces weigh 10 kg and never rest, odd ones weigh 5 kg and
+    rest at 0.25 s.
     """
     sources = [("wall", "brick", bodies)] if sources is None else sources
     ends = np.cumsum([count for _, _, count in sources])

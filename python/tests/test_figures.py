@@ -15,6 +15,7 @@ from brisance import _engine
 from brisance.errors import InputError
 from brisance.figures import FIGURES, build, example, figure_3_4, painter, wall
 from brisance.figures.raster import Raster
+from brisance.result import Result
 
 NAMES = ["table-2.1", "2.7", "2.8", "2.9", "2.10", "2.12", "2.13", "2.16"]
 NAMES += ["3.1", "3.2", "3.3", "3.4", "3.5", "3.6", "3.7"]
@@ -195,14 +196,24 @@ def test_figure_3_4_shows_27_bricks_that_fill_the_wall_without_overlap() -> None
     assert extent == pytest.approx([1.28, 0.96], rel=0.1)
 
 
-def test_figure_3_5_moves_every_brick_and_3_7_keeps_the_foot_of_the_wall() -> None:
-    blown, resists = wall.result(wall.BLOWN_APART), wall.result(wall.RESISTS)
-    assert np.linalg.norm(blown.positions[-1] - blown.positions[0], axis=1).min() > 0.05
-    moved = np.linalg.norm(resists.positions[-1] - resists.positions[0], axis=1)
-    height = resists.positions[0, :, 1]
-    lowest, highest = height < height.min() + 0.05, height > height.max() - 0.05
-    assert moved[lowest].max() < 0.01
-    assert moved[highest].max() > 0.1
+def moved(result: Result) -> NDArray[np.float64]:
+    """How far each piece is from its place at the end [m]."""
+    return np.linalg.norm(result.positions[-1] - result.positions[0], axis=1)
+
+
+def test_figure_3_5_scatters_the_wall() -> None:
+    distance = moved(wall.result(wall.BLOWN_APART))
+    # Every brick moves, and nine in ten by more than half the wall's thickness: off what carried them.
+    assert distance.min() > 1e-3
+    assert np.count_nonzero(distance > 0.05) >= 24
+
+
+def test_figure_3_7_loses_its_top_and_keeps_its_foot() -> None:
+    result = wall.result(wall.RESISTS)
+    height, distance = result.positions[0, :, 1], moved(result)
+    # The wall is 0.1 m thick: what has moved less is still in it.
+    assert distance[height < height.min() + 0.05].max() < 0.1
+    assert distance[height > height.max() - 0.05].max() > 0.3
 
 
 def test_painted_frames_are_equally_spaced() -> None:

@@ -53,11 +53,6 @@ impl RigidBody {
         self.world_from_principal * (self.angular_momentum * self.inverse_moments)
     }
 
-    /// Velocity of the body's material at an offset from its centre, both in the world [m/s].
-    pub fn velocity_at(&self, offset: DVec3) -> DVec3 {
-        self.velocity + self.angular_velocity().cross(offset)
-    }
-
     /// Kinetic energy of translation and rotation [J].
     pub fn kinetic_energy(&self) -> f64 {
         let spin = self.angular_momentum * self.angular_momentum * self.inverse_moments;
@@ -68,12 +63,6 @@ impl RigidBody {
     pub fn push(&mut self, impulse: DVec3, angular_impulse: DVec3) {
         self.velocity += self.world_from_principal * impulse * self.inverse_mass;
         self.angular_momentum += angular_impulse;
-    }
-
-    /// Takes an impulse [N s] at an offset from the centre, both in the world.
-    pub fn push_at(&mut self, impulse: DVec3, offset: DVec3) {
-        self.velocity += impulse * self.inverse_mass;
-        self.angular_momentum += self.world_from_principal.conjugate() * offset.cross(impulse);
     }
 
     /// A free step through still air: gravity, drag, lift, rotation.
@@ -138,9 +127,12 @@ impl RigidBody {
         }
         let rate = self.inverse_moments * (0.5 * dt);
         let mut q = self.world_from_principal;
-        for (axis, share) in [(0, 0.5), (1, 0.5), (2, 1.0), (1, 0.5), (0, 0.5)] {
-            turn_about(axis, rate[axis] * momentum[axis] * share, &mut momentum, &mut q);
-        }
+        let half = rate * 0.5;
+        turn_about(0, half.x * momentum.x, &mut momentum, &mut q);
+        turn_about(1, half.y * momentum.y, &mut momentum, &mut q);
+        turn_about(2, rate.z * momentum.z, &mut momentum, &mut q);
+        turn_about(1, half.y * momentum.y, &mut momentum, &mut q);
+        turn_about(0, half.x * momentum.x, &mut momentum, &mut q);
         self.angular_momentum = momentum;
         self.world_from_principal = q.normalize();
     }
@@ -163,28 +155,27 @@ fn mixed(winds: Winds, t0: f64, t1: f64) -> (DVec3, f64, f64) {
 }
 
 /// Rotates body and momentum by twice `half_angle` about a principal axis; the quaternion is left unnormalised.
-#[inline]
+#[inline(always)]
 fn turn_about(axis: usize, half_angle: f64, momentum: &mut DVec3, q: &mut DQuat) {
-    let t = tangent(half_angle);
-    let scale = 1.0 / (1.0 + t * t);
-    let (cos, sin) = ((1.0 - t * t) * scale, 2.0 * t * scale);
+    let (n, d) = tangent(half_angle);
+    let scale = 1.0 / (d * d + n * n);
+    let (cos, sin) = ((d * d - n * n) * scale, 2.0 * n * d * scale);
     let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
     let (a, b) = (momentum[j], momentum[k]);
     // The body turns one way, so its momentum, fixed in space, turns the other way in its axes.
     momentum[j] = cos * a + sin * b;
     momentum[k] = cos * b - sin * a;
-    let mut v = [q.x, q.y, q.z];
-    let w = q.w;
-    let (old_i, old_j, old_k) = (v[axis], v[j], v[k]);
-    v[axis] = old_i + t * w;
-    v[j] = old_j + t * old_k;
-    v[k] = old_k - t * old_j;
-    *q = DQuat::from_xyzw(v[0], v[1], v[2], w - t * old_i);
+    let v = [q.x, q.y, q.z];
+    let mut turned = v;
+    turned[axis] = d * v[axis] + n * q.w;
+    turned[j] = d * v[j] + n * v[k];
+    turned[k] = d * v[k] - n * v[j];
+    *q = DQuat::from_xyzw(turned[0], turned[1], turned[2], d * q.w - n * v[axis]);
 }
 
-/// tan x: a Padé approximant good to 3e-6 for |x| < 1, which is up to 2 rad of turn a step.
-#[inline]
-fn tangent(x: f64) -> f64 {
+/// tan x as a fraction: a Padé approximant good to 3e-6 for |x| < 1, which is up to 2 rad of turn a step.
+#[inline(always)]
+fn tangent(x: f64) -> (f64, f64) {
     let square = x * x;
-    if square < 1.0 { x * (15.0 - square) / (15.0 - 6.0 * square) } else { libm::tan(x) }
+    if square < 1.0 { (x * (1.0 - square / 15.0), 1.0 - 0.4 * square) } else { (libm::sin(x), libm::cos(x)) }
 }

@@ -4,7 +4,7 @@
 //! sweeps with Coulomb friction, in each of which all corners act at once and share the work: no corner comes
 //! first, so that a mirrored body lands as its mirror image.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::RigidBody;
 
@@ -23,7 +23,11 @@ const RESTITUTION: f64 = 0.2;
 const BOUNCE_SPEED: f64 = 0.3;
 /// Corners within this height above the plane count as touching when a body comes to rest [m].
 const TOUCH: f64 = 2e-3;
+/// A corner that approaches slower than this has stopped [m/s].
+const STOPPED: f64 = 1e-3;
 const SWEEPS: usize = 16;
+/// Most corners a body may touch with.
+const MOST_CORNERS: usize = 32;
 /// A body that moves slower than this on three corners is as good as still [m/s].
 const CALM_SPEED: f64 = 0.05;
 /// How long a body must be calm to be at rest [s].
@@ -42,62 +46,100 @@ impl Ground {
     }
 
     /// Resolves the contact of a body that has just moved; `corners` are its outermost points in principal axes
-    /// relative to the centre of mass [m]. Returns whether it lies calmly on three corners or more.
+    /// relative to the centre of mass [m], at most 32. Returns whether it lies calmly on three corners or more.
     pub fn meet(&self, body: &mut RigidBody, corners: &[DVec3], friction: f64) -> bool {
-        let offset = |body: &RigidBody, corner: DVec3| body.world_from_principal * corner;
-        let clearance =
-            |body: &RigidBody, corner: DVec3| body.position.y + offset(body, corner).y - self.height;
-        let lowest = corners.iter().map(|&c| clearance(body, c)).fold(f64::INFINITY, f64::min);
+        let rotation = DMat3::from_quat(body.world_from_principal);
+        let mut offsets = [DVec3::ZERO; MOST_CORNERS];
+        let offsets = &mut offsets[..corners.len()];
+        let mut lowest = f64::INFINITY;
+        for (offset, &corner) in offsets.iter_mut().zip(corners) {
+            *offset = rotation * corner;
+            lowest = lowest.min(offset.y);
+        }
+        let clearance = body.position.y - self.height;
+        lowest += clearance;
         if lowest > TOUCH {
             return false;
         }
         if lowest < 0.0 {
-            let arriving = corners
-                .iter()
-                .filter(|&&c| clearance(body, c) < 0.0)
-                .map(|&c| -body.velocity_at(offset(body, c)).y)
-                .fold(0.0, f64::max);
-            let bounce = if arriving > BOUNCE_SPEED { RESTITUTION } else { 0.0 };
-            let reached = TOUCH.min(-0.5 * lowest);
-            for sweep in 0..SWEEPS {
-                let restitution = if sweep == 0 { bounce } else { 0.0 };
-                let still = *body;
-                let approaching = |c: &DVec3| {
-                    clearance(&still, *c) < reached && still.velocity_at(offset(&still, *c)).y < 0.0
-                };
-                let count = corners.iter().filter(|c| approaching(c)).count();
-                if count == 0 {
-                    break;
-                }
-                for corner in corners.iter().filter(|c| approaching(c)) {
-                    let at = offset(&still, *corner);
-                    body.push_at(stopping(&still, at, friction, restitution) / count as f64, at);
-                }
-            }
+            let reached = TOUCH.min(-0.5 * lowest) - clearance;
+            Impact::of(body, rotation, friction).resolve(offsets, reached, body);
             body.position.y -= lowest;
         }
-        let touching = corners.iter().filter(|&&c| clearance(body, c) < TOUCH).count();
+        let floor = self.height + TOUCH - body.position.y;
+        let touching = offsets.iter().filter(|offset| offset.y < floor).count();
         let rim = body.angular_velocity().length() * body.reach;
         touching >= 3 && body.velocity.length().max(rim) < CALM_SPEED
     }
 }
 
-/// The impulse that stops the approach of one corner, with friction up to the cone [N s].
-fn stopping(body: &RigidBody, offset: DVec3, friction: f64, restitution: f64) -> DVec3 {
-    let velocity = body.velocity_at(offset);
-    let normal = -(1.0 + restitution) * velocity.y / mobility(body, offset, DVec3::Y);
-    let sliding = velocity.with_y(0.0);
-    let speed = sliding.length();
-    if speed == 0.0 {
-        return DVec3::Y * normal;
-    }
-    let along = sliding / speed;
-    let stop = speed / mobility(body, offset, along);
-    DVec3::Y * normal - along * stop.min(friction * normal)
+/// A body while it strikes the ground, all in the world's axes.
+#[derive(Clone, Copy)]
+struct Impact {
+    velocity: DVec3,
+    spin: DVec3,
+    inverse_mass: f64,
+    inverse_inertia: DMat3,
+    friction: f64,
 }
 
-/// Velocity that a unit impulse along `direction` at `offset` gives that point [1/kg].
-fn mobility(body: &RigidBody, offset: DVec3, direction: DVec3) -> f64 {
-    let arm = body.world_from_principal.conjugate() * offset.cross(direction);
-    body.inverse_mass + (arm * arm * body.inverse_moments).element_sum()
+impl Impact {
+    fn of(body: &RigidBody, rotation: DMat3, friction: f64) -> Self {
+        Self {
+            velocity: body.velocity,
+            spin: body.angular_velocity(),
+            inverse_mass: body.inverse_mass,
+            inverse_inertia: rotation * DMat3::from_diagonal(body.inverse_moments) * rotation.transpose(),
+            friction,
+        }
+    }
+
+    /// Stops the approach of all corners lower than `reached`, and hands the impulses to the body.
+    fn resolve(mut self, offsets: &[DVec3], reached: f64, body: &mut RigidBody) {
+        let low = |offset: &&DVec3| offset.y < reached;
+        let arriving = offsets.iter().filter(low).map(|&o| -self.velocity_at(o).y).fold(0.0, f64::max);
+        let bounce = if arriving > BOUNCE_SPEED { RESTITUTION } else { 0.0 };
+        for sweep in 0..SWEEPS {
+            let restitution = if sweep == 0 { bounce } else { 0.0 };
+            let approaching = |offset: &&DVec3| low(offset) && self.velocity_at(**offset).y < -STOPPED;
+            let count = offsets.iter().filter(approaching).count();
+            if count == 0 {
+                break;
+            }
+            let (mut impulse, mut angular) = (DVec3::ZERO, DVec3::ZERO);
+            for &offset in offsets.iter().filter(approaching) {
+                let push = self.stopping(offset, restitution) / count as f64;
+                impulse += push;
+                angular += offset.cross(push);
+            }
+            self.velocity += impulse * self.inverse_mass;
+            self.spin += self.inverse_inertia * angular;
+            body.velocity = self.velocity;
+            body.angular_momentum += body.world_from_principal.conjugate() * angular;
+        }
+    }
+
+    fn velocity_at(&self, offset: DVec3) -> DVec3 {
+        self.velocity + self.spin.cross(offset)
+    }
+
+    /// The impulse that stops the approach of one corner, with friction up to the cone [N s].
+    fn stopping(&self, offset: DVec3, restitution: f64) -> DVec3 {
+        let velocity = self.velocity_at(offset);
+        let normal = -(1.0 + restitution) * velocity.y / self.mobility(offset, DVec3::Y);
+        let sliding = velocity.with_y(0.0);
+        let speed = sliding.length();
+        if speed == 0.0 {
+            return DVec3::Y * normal;
+        }
+        let along = sliding / speed;
+        let stop = speed / self.mobility(offset, along);
+        DVec3::Y * normal - along * stop.min(self.friction * normal)
+    }
+
+    /// Velocity that a unit impulse along `direction` at `offset` gives that point [1/kg].
+    fn mobility(&self, offset: DVec3, direction: DVec3) -> f64 {
+        let arm = offset.cross(direction);
+        self.inverse_mass + arm.dot(self.inverse_inertia * arm)
+    }
 }

@@ -62,7 +62,8 @@ def describe_usd(path: Path) -> str:
     head = [
         f"{facts['scene']}: {count(sum(map(len, groups.values())), 'piece')}, {count(frames, 'frame')} at "
         f"{layer.timeCodesPerSecond:g} frames/s, seed {facts['seed']}, Brisance {facts['version']}",
-        f"up axis {layer.pseudoRoot.GetInfo('upAxis')}, {layer.pseudoRoot.GetInfo('metersPerUnit'):g} m a unit, "
+        f"up axis {layer.pseudoRoot.GetInfo('upAxis')}, "
+        f"{layer.pseudoRoot.GetInfo('metersPerUnit'):g} m a unit, "
         f"frames {layer.startTimeCode:g} to {layer.endTimeCode:g}, layout {facts['layout']}",
     ]
     return _text(head, groups, list(world.attributes["brisance:warnings"].default or ()))

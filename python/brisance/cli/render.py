@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from brisance.render import Progress
+
+
+class Quality(StrEnum):
+    """How finely a frame is rendered."""
+
+    draft = "draft"
+    final = "final"
 
 
 def render(
@@ -23,6 +36,11 @@ def render(
         str, typer.Option(metavar="VIEW", help="front, side, below, or the path of a camera in the file.")
     ] = "front",
     size: Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")] = "1280x720",
+    quality: Annotated[
+        Quality | None,
+        typer.Option(help="final takes about 8 times as long; left out: final for one frame, else draft."),
+    ] = None,
+    fps: Annotated[int, typer.Option(metavar="N", help="Frames a video shows a second.")] = 25,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")] = False,
 ) -> None:
     """Render a result with Blender (needs brisance[render]; no display, no GPU).
@@ -31,12 +49,39 @@ def render(
     Example:
       brisance render wall.usdc -o wall.mp4 --size 640x360
       brisance render wall.usdc -o still.png --frame 20 --camera side
+      brisance render wall.usdc -o frames/####.png --quality final
     """
     from brisance.render import render as render_result
 
-    render_result(result, output, frame=frame, camera=camera, size=parse_size(size))
+    with shown(not quiet) as progress:
+        written = render_result(
+            result,
+            output,
+            frame=frame,
+            camera=camera,
+            size=parse_size(size),
+            quality=None if quality is None else quality.value,
+            fps=fps,
+            progress=progress,
+        )
     if not quiet:
-        typer.echo(str(output))
+        typer.echo(str(written[0] if len(written) == 1 else output))
+
+
+@contextmanager
+def shown(wanted: bool) -> Iterator[Progress | None]:
+    """A bar on stderr that counts finished frames, or nothing where nobody watches."""
+    from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    if not (wanted and console.is_terminal):
+        yield None
+        return
+    columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("rendering", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
 def parse_size(text: str) -> tuple[int, int]:

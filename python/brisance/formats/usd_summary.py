@@ -62,7 +62,7 @@ class UsdSummary:
     ground_height_m: float | None
     """None where there is no ground."""
     facts: dict[str, tuple[float, float]]
-    """Smallest and largest value over all pieces of each fact of the report; a fact that no piece has is left out."""
+    """Smallest and largest value over all pieces of each fact; a fact that no piece has is left out."""
     warnings: tuple[str, ...]
 
     @property

@@ -46,7 +46,7 @@ class Layout:
 
 def layout(wall: BrickWall) -> Layout:
     """Lay the bricks of a wall."""
-    length, height, thickness = wall.brick_size
+    length, height, _ = wall.brick_size
     gap, columns, rows = wall.mortar_gap, wall.columns, wall.rows
     half = (length - gap) / 2
     in_row = columns + np.arange(rows) % 2
@@ -58,7 +58,7 @@ def layout(wall: BrickWall) -> Layout:
 
     size = np.tile(np.array(wall.brick_size), (len(row), 1))
     size[~whole, 0] = half
-    # Places in a course are counted from its middle, so that left and right mirror each other to the last bit.
+    # Places in a course are counted from its middle: left and right mirror each other to the last bit.
     from_middle = column - last / 2
     centre = np.empty((len(row), 3))
     centre[:, 0] = from_middle * (length + gap)

@@ -1,22 +1,24 @@
 """USD: a result as a scene that opens in any USD tool.
 
-Two layouts hold the same thing. ``"prims"`` has one Mesh a piece under its object's Xform and is the one to edit;
-``"instancer"`` has one PointInstancer an object and is the one to keep thousands of pieces in. An object of a single
-piece is a Mesh in both.
+Two layouts hold the same thing. ``"prims"`` has one Mesh a piece under its object's Xform and is the one to
+edit; ``"instancer"`` has one PointInstancer an object and is the one to keep thousands of pieces in. An
+object of a single piece is a Mesh in both.
 
 .. code-block:: text
 
-    /World                     brisance: version, seed, scene …
-      Materials/brick          preview surface; brick_broken for fracture surfaces
-      PhysicsScene             gravity
-      Ground                   purpose proxy
-      Charges/charge_0         purpose guide
-      Charges/shock_front_0    purpose guide, grows frame by frame
-      wall/wall_r0_c0 …        prims: a Mesh a piece          instancer: wall is a PointInstancer over wall/Prototypes
+    /World                   brisance: version, seed, scene …
+      Materials/brick        preview surface; brick_broken for fracture surfaces
+      PhysicsScene           gravity
+      Ground                 purpose proxy
+      Charges/charge_0       purpose guide
+      Charges/shock_front_0  purpose guide, grows frame by frame
+      wall/wall_r0_c0 …      prims: a Mesh a piece; instancer: wall is a PointInstancer over wall/Prototypes
 """
 
 from __future__ import annotations
 
+import os
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -42,8 +44,8 @@ LAYOUTS = ("auto", "prims", "instancer")
 MOST_PRIMS = 3000
 """``"auto"`` uses the layout ``"prims"`` up to this many pieces.
 
-Measured on two cores with 121 frames, every piece a mesh of its own and moving for four fifths of them; write time,
-file size, and time to import in Blender 5.0:
+Measured on two cores with 121 frames, every piece a mesh of its own and moving for four fifths of them; write
+time, file size, and time to import in Blender 5.0:
 
 ========= ======================= =======================
 pieces    prims                   instancer
@@ -54,11 +56,15 @@ pieces    prims                   instancer
 10 000    9.0 s, 47 MB, 5.9 s     1.9 s, 22 MB, 5.3 s
 ========= ======================= =======================
 
-Where pieces share a mesh (bricks), the instancer writes 10 000 pieces in 0.2 s and imports in 0.03 s, as one object.
+Where pieces share a mesh (bricks), the instancer writes 10 000 pieces in 0.2 s and imports in 0.03 s, as one
+object.
 """
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-"""What a USD file's name may end in. ``.usda`` is text, ``.usd`` and ``.usdc`` are binary, ``.usdz`` is a package."""
+"""Endings of USD file names: ``.usda`` is text, ``.usd`` and ``.usdc`` are binary, ``.usdz`` is a package."""
+
+_PACKAGE_TIME = time.mktime((1980, 1, 2, 0, 0, 0, 0, 0, -1))
+"""Packages state when their file was made, in local time; a fixed moment keeps their bytes the same [s]."""
 
 _T = Sdf.ValueTypeNames
 
@@ -72,16 +78,20 @@ def write_usd(
 ) -> None:
     """Write a result to a USD file, whole or not at all.
 
-    The same result gives the same bytes. Time codes are frame numbers, and a piece has keys only while it moves.
+    The same result gives the same bytes. Time codes are frame numbers, and a piece has keys only while it
+    moves.
 
-    :param layout: ``"prims"``, ``"instancer"``, or ``"auto"``, which chooses by the number of pieces (:data:`MOST_PRIMS`).
+    :param layout: ``"prims"``, ``"instancer"``, or ``"auto"``, which chooses by the number of pieces
+        (:data:`MOST_PRIMS`).
     :param progress: called with the pieces authored so far and all pieces.
-    :raises InputError: the name ends in something else than :data:`SUFFIXES`, the layout is unknown, or nothing can
-        be written there.
+    :raises InputError: the name ends in something else than :data:`SUFFIXES`, the layout is unknown, or
+        nothing can be written there.
     """
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
-        raise InputError(f"{path} does not name a USD file; let it end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}.")
+        raise InputError(
+            f"{path} does not name a USD file; let it end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}."
+        )
     check_writable(path)
     layer = build_layer(result, layout=layout, progress=progress)
     with replacing(path) as temporary:
@@ -171,6 +181,7 @@ def _package(layer: Sdf.Layer, path: Path, *, name: str) -> None:
     with TemporaryDirectory() as folder:
         inner = Path(folder) / f"{Tf.MakeValidIdentifier(name)}.usdc"
         _export(layer, inner)
+        os.utime(inner, (_PACKAGE_TIME, _PACKAGE_TIME))
         with _refusals(path):
             if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(inner)), str(path)):
                 raise InputError(f"{path} could not be written; check the free space on its disk.")

@@ -1,7 +1,7 @@
 """Thin helpers over Sdf, USD's layer of plain data: about ten times faster than the schema classes.
 
-Everything the writer authors goes through here, so the rules are stated once: a ``brisance:`` attribute is custom, a
-prim's name is a valid and unique ASCII identifier, and a list of applied schemas is prepended.
+Everything the writer authors goes through here, so the rules are stated once: a ``brisance:`` attribute is
+custom, a prim's name is a valid and unique ASCII identifier, and a list of applied schemas is prepended.
 """
 
 from __future__ import annotations
@@ -56,16 +56,16 @@ def apply(prim: Sdf.PrimSpec, *schemas: str) -> None:
 class Names:
     """Valid and unique prim names under one parent.
 
-    ``reserved`` names are never given out, so that an object that is called "Materials" cannot land on the scope of
-    that name.
+    ``reserved`` names are never given out, so that an object that is called "Materials" cannot land on the
+    scope of that name.
     """
 
     def __init__(self, reserved: Iterable[str] = ()) -> None:
         self._taken = set(reserved)
 
     def identifier(self, name: str) -> str:
-        """Return ``name`` with every unfit character replaced by ``_``, and a number where that is taken already."""
-        stem = Tf.MakeValidIdentifier(name)
+        """Return ``name`` with every unfit character as ``_``, and a number where that is taken already."""
+        stem = str(Tf.MakeValidIdentifier(name))
         candidate, number = stem, 1
         while candidate in self._taken:
             number += 1

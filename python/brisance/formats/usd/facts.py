@@ -1,7 +1,7 @@
 """The facts of the report, as attributes in the ``brisance:`` namespace under the report's own names.
 
-A mesh carries the values of its piece; an instancer carries arrays with one value an instance. A fact that a piece
-does not have (the time of rest of one that never rests) is left out on a mesh and NaN in an array.
+A mesh carries the values of its piece; an instancer carries arrays with one value an instance. A fact that a
+piece does not have (the time of rest of one that never rests) is left out on a mesh and NaN in an array.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
-"""Piece meshes as USD arrays: every distinct mesh converted once, all of them in a few whole-array operations.
+"""Piece meshes as USD arrays: every distinct mesh converted once, in a few whole-array operations.
 
-Normals are authored rather than left to the viewer. Edges sharper than :data:`SMOOTHING_ANGLE_DEG` stay hard, gentler
-ones are smoothed, and nothing is smoothed across the border of a face group (a fracture surface meets the outside in
-a hard edge). A mesh on which nothing is smooth, a brick or a shard, carries one normal a face instead of one a corner.
+Normals are authored rather than left to the viewer. Edges sharper than :data:`SMOOTHING_ANGLE_DEG` stay hard,
+gentler ones are smoothed, and nothing is smoothed across the border of a face group (a fracture surface meets
+the outside in a hard edge). A mesh on which nothing is smooth, a brick or a shard, carries one normal a face
+instead of one a corner.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ SMOOTHING_ANGLE_DEG = 30.0
 """Faces that meet at less than this angle are shaded as one surface [degrees]."""
 
 _MOST_FACES_AT_A_POINT = 64
-"""Points where more faces meet (the tip of a finely divided cone) keep hard edges: pairing them costs the square."""
+"""Points where more faces meet (the tip of a fine cone) keep hard edges: pairing them costs the square."""
 
 _NO_FACES = np.empty(0, dtype=np.int32)
 _T = Sdf.ValueTypeNames
@@ -61,10 +62,10 @@ class Geometries:
 
 
 def author_shape(prim: Sdf.PrimSpec, geometry: Geometry, *, material: str) -> None:
-    """Author the shape of a Mesh prim, and where it has ``broken`` faces a subset of them with the broken look.
+    """Author the shape of a Mesh prim, and a subset with the broken look where it has ``broken`` faces.
 
-    The other faces then form a subset ``outside``: the material of the mesh holds for them anyway, but Blender looks
-    at the subsets alone.
+    The other faces then form a subset ``outside``: the material of the mesh holds for them anyway, but
+    Blender looks at the subsets alone.
     """
     attribute(prim, "points", _T.Point3fArray, geometry.points)
     attribute(prim, "faceVertexCounts", _T.IntArray, geometry.counts)
@@ -107,7 +108,9 @@ def _convert(meshes: list[PieceMesh]) -> list[Geometry]:
     bent = np.abs(corner_normals - face_normals[corner_faces]).max(axis=1) > 1e-6
     corner_starts = np.concatenate([[0], corner_ends[:-1]])
     smooth = np.logical_or.reduceat(bent, corner_starts)
-    extents = np.stack([np.minimum.reduceat(points, point_starts), np.maximum.reduceat(points, point_starts)], axis=1)
+    extents = np.stack(
+        [np.minimum.reduceat(points, point_starts), np.maximum.reduceat(points, point_starts)], axis=1
+    )
     radius = np.sqrt(np.maximum.reduceat((points.astype(np.float64) ** 2).sum(axis=1), point_starts))
 
     geometries = []
@@ -115,8 +118,11 @@ def _convert(meshes: list[PieceMesh]) -> list[Geometry]:
         if smooth[i]:
             normals, interpolation = corner_normals[corner_starts[i] : corner_ends[i]], "faceVarying"
         else:
-            normals, interpolation = face_normals[face_ends[i] - len(mesh.face_counts) : face_ends[i]], "uniform"
-        broken = np.unique(mesh.groups.get("broken", _NO_FACES)).astype(np.int32)
+            normals, interpolation = (
+                face_normals[face_ends[i] - len(mesh.face_counts) : face_ends[i]],
+                "uniform",
+            )
+        broken = np.unique(mesh.groups["broken"]).astype(np.int32) if "broken" in mesh.groups else _NO_FACES
         geometries.append(
             Geometry(
                 points=Vt.Vec3fArray.FromNumpy(points[point_starts[i] : point_ends[i]]),

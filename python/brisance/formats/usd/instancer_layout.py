@@ -1,9 +1,10 @@
 """The compact layout: a PointInstancer an object, one array of positions and one of orientations a frame.
 
-A prototype stands for all pieces with the same mesh, mass and tint, and carries shape, material and physics: applied
-to a prototype, the rigid-body schemas make every instance a body of its own. Positions are the recorded float32
-values. Orientations are half floats, as the schema's ``orientations`` holds them and as Blender reads them: each
-component is within 2.5e-4 of the recorded one, which turns a piece by less than 0.06 degrees.
+A prototype stands for all pieces with the same mesh, mass and tint, and carries shape, material and physics:
+applied to a prototype, the rigid-body schemas make every instance a body of its own. Positions are the
+recorded float32 values. Orientations are half floats, as the schema's ``orientations`` holds them and as
+Blender reads them: each component is within 2.5e-4 of the recorded one, which turns a piece by less than 0.06
+degrees.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
     attribute(instancer, "protoIndices", _T.IntArray, Vt.IntArray.FromNumpy(indices))
     ids = np.arange(source.start, source.stop, dtype=np.int64)
     attribute(instancer, "ids", _T.Int64Array, Vt.Int64Array.FromNumpy(ids))
-    attribute(instancer, "brisance:names", _T.StringArray, Vt.StringArray(list(show.result.bodies.names[bodies])))
+    attribute(
+        instancer, "brisance:names", _T.StringArray, Vt.StringArray(list(show.result.bodies.names[bodies]))
+    )
     show.facts.author_arrays(instancer, bodies)
     _author_motion(instancer, show, bodies, radii)
     show.advance(source.stop - source.start)
@@ -44,13 +47,14 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
 def _author_prototypes(
     instancer: Sdf.PrimSpec, show: Show, source: Source
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Author the prototypes; return the prototype of each piece and its radius about the piece's origin [m]."""
+    """Author the prototypes; return the prototype of each piece and its radius about its origin [m]."""
     scope = define(instancer, "Prototypes", "Scope")
     apply(scope, "MaterialBindingAPI")
     bind(scope, source.material)
     tint, colours = tints(source)
     known: dict[tuple[int, float, int], int] = {}
-    paths, radii = [], []
+    paths: list[Sdf.Path] = []
+    radii: list[float] = []
     indices = np.empty(source.stop - source.start, dtype=np.int32)
     for number, body in enumerate(range(source.start, source.stop)):
         mesh, mass, shade = show.result.meshes[body], float(show.facts.mass[body]), int(tint[number])
@@ -61,7 +65,9 @@ def _author_prototypes(
             prim = define(scope, f"piece_{len(paths)}", "Mesh")
             author_body(prim, mass=mass)
             author_shape(prim, geometry, material=source.material)
-            attribute(prim, "primvars:displayColor", _T.Color3fArray, colours[shade], interpolation="constant")
+            attribute(
+                prim, "primvars:displayColor", _T.Color3fArray, colours[shade], interpolation="constant"
+            )
             paths.append(prim.path)
             radii.append(geometry.radius)
         indices[number] = known[key]

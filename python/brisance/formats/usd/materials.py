@@ -1,8 +1,8 @@
 """How materials look: one preview surface a material, and a handful of tints so that a wall reads as bricks.
 
-The tint of a piece is its ``displayColor``. Plain viewers draw that colour itself, renderers get it through the
-material, whose base colour reads the same primvar. Tints come from a short list per material so that pieces of one
-mesh and tint can share a prototype.
+The tint of a piece is its ``displayColor``. Plain viewers draw that colour itself, renderers get it through
+the material, whose base colour reads the same primvar. Tints come from a short list per material so that
+pieces of one mesh and tint can share a prototype.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def author_materials(world: Sdf.PrimSpec, materials: list[str], *, broken: bool)
 
 
 def piece_tints(source: str, count: int) -> NDArray[np.int64]:
-    """Return the tint of each piece of an object, 0 to TINTS - 1: a hash of the object's name and the piece's number."""
+    """Return each piece's tint, 0 to TINTS - 1: a hash of the object's name and the piece's number."""
     keys = np.arange(count, dtype=np.uint64) + np.uint64(zlib.crc32(source.encode()) << 20)
     keys *= np.uint64(0x9E3779B97F4A7C15)
     keys ^= keys >> np.uint64(32)

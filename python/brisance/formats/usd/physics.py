@@ -1,10 +1,10 @@
 """UsdPhysics on the pieces, so that a downstream engine can take over.
 
-Every piece is a rigid body with its mass, its centre of mass at its own origin and a convex collider. The bodies are
-*kinematic*: a simulator follows the recorded keys, and whatever else it simulates is pushed by them. To hand the
-pieces over, start at the last frame and set ``physics:kinematicEnabled`` to false: ``physics:velocity`` and
-``physics:angularVelocity`` hold their motion at that moment, so they fly on as they flew. (A simulator reads these two
-only from bodies that are not kinematic.)
+Every piece is a rigid body with its mass, its centre of mass at its own origin and a convex collider. The
+bodies are *kinematic*: a simulator follows the recorded keys, and whatever else it simulates is pushed by
+them. To hand the pieces over, start at the last frame and set ``physics:kinematicEnabled`` to false:
+``physics:velocity`` and ``physics:angularVelocity`` hold their motion at that moment, so they fly on as they
+flew. (A simulator reads these two only from bodies that are not kinematic.)
 """
 
 from __future__ import annotations

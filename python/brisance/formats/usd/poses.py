@@ -24,9 +24,9 @@ def continuous(orientations: NDArray[np.float32]) -> NDArray[np.float32]:
 def carrying_frames(values: NDArray[np.generic]) -> NDArray[np.bool_]:
     """Which frames of which body are needed to reproduce the values by linear interpolation and holding.
 
-    ``values`` is (frames, bodies, components); the answer is (frames, bodies). A body whose values never change
-    needs no frame at all. Of one that moves, the first and last frame are kept, and of each constant stretch its two
-    ends.
+    ``values`` is (frames, bodies, components); the answer is (frames, bodies). A body whose values never
+    change needs no frame at all. Of one that moves, the first and last frame are kept, and of each constant
+    stretch its two ends.
     """
     changed = np.zeros((len(values) - 1, values.shape[1]), dtype=np.bool_)
     for component in range(values.shape[2]):
@@ -41,18 +41,19 @@ def carrying_frames(values: NDArray[np.generic]) -> NDArray[np.bool_]:
 
 
 def final_velocities(positions: NDArray[np.float32], frame_rate: float) -> NDArray[np.float32]:
-    """Return (bodies, 3), the mean velocity over the last frame interval [m/s]; zero where there is one frame."""
+    """Return (bodies, 3), the mean velocity over the last frame interval [m/s]; zero for a single frame."""
     if len(positions) < 2:
         return np.zeros(positions.shape[1:], dtype=np.float32)
     step = positions[-1].astype(np.float64) - positions[-2]
-    return (step * frame_rate).astype(np.float32)
+    velocities: NDArray[np.float32] = (step * frame_rate).astype(np.float32)
+    return velocities
 
 
 def final_spins(orientations: NDArray[np.float32], frame_rate: float) -> NDArray[np.float32]:
     """Return (bodies, 3), the mean angular velocity over the last frame interval in world axes [degrees/s].
 
-    The rotation of a frame is taken the short way, so a body that turns by more than half a turn a frame is seen
-    slower than it is.
+    The rotation of a frame is taken the short way, so a body that turns by more than half a turn a frame is
+    seen slower than it is.
     """
     if len(orientations) < 2:
         return np.zeros((orientations.shape[1], 3), dtype=np.float32)
@@ -64,4 +65,5 @@ def final_spins(orientations: NDArray[np.float32], frame_rate: float) -> NDArray
     sine = np.linalg.norm(vector, axis=1, keepdims=True)
     angle = 2 * np.arctan2(sine, np.abs(scalar))
     axis = np.divide(vector, sine, out=np.zeros_like(vector), where=sine > 0)
-    return np.degrees(axis * angle * frame_rate).astype(np.float32)
+    spins: NDArray[np.float32] = np.degrees(axis * angle * frame_rate).astype(np.float32)
+    return spins

@@ -53,7 +53,10 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
 def _author_motion(piece: Sdf.PrimSpec, show: Show, body: int) -> None:
     positions, orientations = show.positions[:, body], show.orientations[:, body]
     translate = attribute(
-        piece, "xformOp:translate", _T.Float3, None if show.carries[0, body] else Gf.Vec3f(*positions[0].tolist())
+        piece,
+        "xformOp:translate",
+        _T.Float3,
+        None if show.carries[0, body] else Gf.Vec3f(*positions[0].tolist()),
     )
     frames = np.flatnonzero(show.carries[:, body])
     if len(frames):
@@ -68,4 +71,4 @@ def _author_motion(piece: Sdf.PrimSpec, show: Show, body: int) -> None:
 
 
 def _time_codes(frames: NDArray[np.int64]) -> list[float]:
-    return frames.astype(np.float64).tolist()
+    return [float(frame) for frame in frames]

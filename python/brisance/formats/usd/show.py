@@ -1,4 +1,4 @@
-"""What the writer works from: a result's poses, shapes, colours and facts, converted once and shared by the layouts."""
+"""What both layouts work from: a result's poses, shapes, colours and facts, converted once."""
 
 from __future__ import annotations
 
@@ -27,8 +27,9 @@ _T = Sdf.ValueTypeNames
 class Show:
     """A result as the layouts need it.
 
-    ``positions`` (frames, bodies, 3) and ``orientations`` (frames, bodies, 4; w x y z, sign-continuous) are the
-    recorded float32 values; ``carries`` and ``turns`` (frames, bodies) mark the frames that carry the motion of each.
+    ``positions`` (frames, bodies, 3) and ``orientations`` (frames, bodies, 4; w x y z, sign-continuous) are
+    the recorded float32 values; ``carries`` and ``turns`` (frames, bodies) mark the frames that carry the
+    motion of each.
     """
 
     def __init__(self, result: Result, progress: Callable[[int, int], None] | None) -> None:
@@ -66,7 +67,9 @@ class Show:
         attribute(prim, "brisance:material", _T.Token, source.material, uniform=True)
         attribute(prim, "brisance:pieces", _T.Int, source.stop - source.start, uniform=True)
         attribute(prim, "brisance:moving_pieces", _T.Int, int(self.moves[bodies].sum()), uniform=True)
-        attribute(prim, "brisance:total_mass_kg", _T.Double, float(self.facts.mass[bodies].sum()), uniform=True)
+        attribute(
+            prim, "brisance:total_mass_kg", _T.Double, float(self.facts.mass[bodies].sum()), uniform=True
+        )
         return prim
 
 

@@ -1,8 +1,8 @@
 """What stands around the pieces: the ground, the charges, and the shock fronts that grow from them.
 
-Charges and shock fronts have the purpose ``guide``: viewers show them on request, renderers and importers leave them
-out. The ground has the purpose ``proxy``: viewers show it, a final render and Blender's import leave it out, so it
-never gets in the way of the artist's own.
+Charges and shock fronts have the purpose ``guide``: viewers show them on request, renderers and importers
+leave them out. The ground has the purpose ``proxy``: viewers show it, a final render and Blender's import
+leave it out, so it never gets in the way of the artist's own.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _FRONT_COLOUR = Gf.Vec3f(1.0, 0.6, 0.15)
 
 
 def author_ground(world: Sdf.PrimSpec, result: Result) -> None:
-    """Author the scene's ground, if it has one: a square that reaches well past everything that happens on it."""
+    """Author the scene's ground, if it has one: a square that reaches well past all that happens on it."""
     ground = result.scene.ground
     if ground is None:
         return
@@ -75,11 +75,13 @@ def author_charges(world: Sdf.PrimSpec, result: Result) -> None:
         attribute(prim, "brisance:time_s", _T.Double, charge.time, uniform=True)
         attribute(prim, "brisance:gain", _T.Double, charge.gain, uniform=True)
         attribute(prim, "brisance:curves", _T.String, charge.curves, uniform=True)
-        _author_front(scope, number, charge, np.asarray(result.front_radius(number), dtype=np.float64).tolist())
+        _author_front(
+            scope, number, charge, np.asarray(result.front_radius(number), dtype=np.float64).tolist()
+        )
 
 
 def _author_front(scope: Sdf.PrimSpec, number: int, charge: Charge, radii: list[float]) -> None:
-    """Author the shock front as a sphere that grows frame by frame and is hidden until the charge detonates."""
+    """Author the shock front: a sphere that grows frame by frame, hidden until the charge detonates."""
     prim = _sphere(scope, f"shock_front_{number}", charge, colour=_FRONT_COLOUR, opacity=0.15)
     frames = [float(frame) for frame in range(len(radii))]
     samples(attribute(prim, "radius", _T.Double), frames, radii)
@@ -92,13 +94,19 @@ def _author_front(scope: Sdf.PrimSpec, number: int, charge: Charge, radii: list[
         samples(visibility, [0.0, first], ["invisible", "inherited"])
 
 
-def _sphere(scope: Sdf.PrimSpec, name: str, charge: Charge, *, colour: Gf.Vec3f, opacity: float) -> Sdf.PrimSpec:
+def _sphere(
+    scope: Sdf.PrimSpec, name: str, charge: Charge, *, colour: Gf.Vec3f, opacity: float
+) -> Sdf.PrimSpec:
     prim = define(scope, name, "Sphere")
     attribute(prim, "purpose", _T.Token, "guide", uniform=True)
     attribute(prim, "xformOp:translate", _T.Double3, Gf.Vec3d(*charge.position))
     attribute(prim, "xformOpOrder", _T.TokenArray, Vt.TokenArray(["xformOp:translate"]), uniform=True)
-    attribute(prim, "primvars:displayColor", _T.Color3fArray, Vt.Vec3fArray([colour]), interpolation="constant")
-    attribute(prim, "primvars:displayOpacity", _T.FloatArray, Vt.FloatArray([opacity]), interpolation="constant")
+    attribute(
+        prim, "primvars:displayColor", _T.Color3fArray, Vt.Vec3fArray([colour]), interpolation="constant"
+    )
+    attribute(
+        prim, "primvars:displayOpacity", _T.FloatArray, Vt.FloatArray([opacity]), interpolation="constant"
+    )
     return prim
 
 

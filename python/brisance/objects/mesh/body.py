@@ -16,7 +16,6 @@ from brisance.objects.mesh.measure import centroid, mesh_contains, volume
 from brisance.objects.mesh.polygons import Indices, Points, PolygonMesh, triangulate
 from brisance.objects.mesh.repair import RepairedMesh, repair
 from brisance.piece import PieceMesh, PieceSet
-from brisance.rotation import rotate
 
 if TYPE_CHECKING:
     from brisance import _engine
@@ -24,20 +23,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MeshBody:
-    """One body from a mesh file: closed surface for the physics and look, both about the centre of mass."""
+    """One body from a mesh file: a closed surface for the physics, and its look."""
 
     obj: MeshObject
     name: str
     vertices: Points
-    """(n, 3) of the closed surface, from the centre of mass, along the unrotated object's axes [m]."""
+    """(n, 3) of the closed surface in the object's own frame, which is the file's times ``scale`` [m]."""
     triangles: Indices
     """(t, 3), counter-clockwise seen from outside."""
     centre: Points
-    """(3,) centre of mass from the file's origin, along the unrotated object's axes [m]."""
+    """(3,) centre of mass in the object's own frame [m]."""
     volume: float
     """Enclosed volume [m³]."""
     look: PieceMesh
-    """The faces of the file."""
+    """The faces of the file, about the centre of mass."""
     warnings: list[str]
     """At most one sentence for what reading left out and one for what repair did."""
 
@@ -46,25 +45,16 @@ class MeshBody:
         """The mass given, else density times volume [kg]."""
         return self.obj.mass if self.obj.mass is not None else (self.obj.density or 0.0) * self.volume
 
-    @property
-    def position(self) -> Points:
-        """(3,) centre of mass in the world [m]: the object's position is where the file's origin lies."""
-        place: Points = np.asarray(self.obj.position) + rotate(self.obj.orientation(), self.centre)
-        return place
-
     def encloses(self, point: Sequence[float]) -> bool:
         """Whether a point of the world [m] lies inside the body."""
-        w, x, y, z = self.obj.orientation()
-        own = rotate((w, -x, -y, -z), np.asarray(point, np.float64) - self.position)
-        return mesh_contains(self.vertices, self.triangles, own)
+        return mesh_contains(self.vertices, self.triangles, self.obj.to_own_frame(point))
 
     def add_to(self, engine: _engine.Scene) -> None:
         """Adds the body to an engine scene."""
-        x, y, z = self.position.tolist()
         engine.add_mesh(
             vertices=self.vertices,
             triangles=self.triangles,
-            position=(x, y, z),
+            position=self.obj.position,
             orientation=self.obj.orientation(),
             mass=self.mass,
             anchored=self.obj.anchored,
@@ -82,6 +72,7 @@ class MeshBody:
             names=[self.name],
             meshes=[self.look],
             add_to=self.add_to,
+            encloses=self.encloses,
             warnings=self.warnings,
         )
 
@@ -101,7 +92,7 @@ def mesh_body(obj: MeshObject, *, base_folder: Path, name: str) -> MeshBody:
     return MeshBody(
         obj=obj,
         name=name,
-        vertices=np.ascontiguousarray(closed.points - centre),
+        vertices=np.ascontiguousarray(closed.points),
         triangles=np.ascontiguousarray(closed.triangles),
         centre=centre,
         volume=volume(closed.points, closed.triangles),

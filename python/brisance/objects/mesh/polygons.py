@@ -33,7 +33,8 @@ class PolygonMesh:
 
     def transformed(self, matrix: Points) -> PolygonMesh:
         """The mesh under an affine map (4, 4) of column vectors; mirrored faces still look outwards."""
-        points = self.points @ matrix[:3, :3].T + matrix[:3, 3]
+        with np.errstate(invalid="ignore"):  # a corner that is not a number is repair's affair
+            points = self.points @ matrix[:3, :3].T + matrix[:3, 3]
         mesh = PolygonMesh(points, self.face_counts, self.face_indices, self.uvs, self.warnings)
         if np.linalg.det(matrix[:3, :3]) < 0.0:
             return mesh.select(
@@ -119,7 +120,9 @@ def triangulate_loop(loop: Points) -> Indices:
     line, a figure of eight) is cut as a fan, which closes it all the same.
     """
     count = len(loop)
-    fan = np.stack([np.zeros(count - 2, np.int64), np.arange(1, count - 1), np.arange(2, count)], axis=1)
+    fan: Indices = np.stack(
+        [np.zeros(count - 2, np.int64), np.arange(1, count - 1), np.arange(2, count)], axis=1
+    )
     normal = newell_normal(loop[None])[0]
     area = float(np.linalg.norm(normal))
     size = float(np.ptp(loop, axis=0).max())
