@@ -33,7 +33,8 @@ def check_fits(frames: int, pieces: int) -> None:
     if available is not None and needed > available:
         raise InputError(
             f"{frames:,} frames of {pieces:,} pieces need {_amount(needed)} of memory and "
-            f"{_amount(available)} are available; lower time.duration, time.frame_rate or the number of pieces, or give --frames."
+            f"{_amount(available)} are available; lower time.duration, "
+            "time.frame_rate or the number of pieces, or give --frames."
         )
 
 

@@ -40,13 +40,13 @@ class Bodies:
     mass_kg: NDArray[np.float64]
     """(B,) mass [kg]."""
     frontal_area_m2: NDArray[np.float64]
-    """(B,) area it turns to the charge that reaches it first [m²]."""
+    """(B,) open area it turns to the nearest charge [m²]."""
     distance_m: NDArray[np.float64]
-    """(B,) from that charge to its nearest panel [m]."""
+    """(B,) from the nearest charge to its centre of mass [m]."""
     arrival_time_s: NDArray[np.float64]
     """(B,) when the first front reaches it [s of scene time]."""
     peak_overpressure_pa: NDArray[np.float64]
-    """(B,) incident overpressure there [Pa]."""
+    """(B,) highest incident overpressure on any of its panels [Pa]."""
     peak_load_pa: NDArray[np.float64]
     """(B,) highest load on any of its panels [Pa]."""
     impulse_n_s: NDArray[np.float64]
@@ -56,7 +56,7 @@ class Bodies:
     launch_speed_m_s: NDArray[np.float64]
     """(B,) its speed when its loading ends [m/s]."""
     rest_time_s: NDArray[np.float64]
-    """(B,) when it comes to rest [s], NaN where it never does."""
+    """(B,) when it comes to rest for good [s]: 0 where it never moves, NaN where it never rests."""
     final_position_m: NDArray[np.float64]
     """(B, 3) centre of mass in the last frame [m]."""
 

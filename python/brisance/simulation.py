@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from brisance import _engine
 from brisance.curve_table import curve_source
@@ -89,7 +90,7 @@ def build(scene: Scene) -> Built:
             damping_factor=scene.dynamics.damping_factor,
             rotation_factor=scene.dynamics.rotation_factor,
         )
-        for charge in scene.charges:
+        for number, charge in enumerate(scene.charges):
             engine.add_charge(
                 mass=charge.mass,
                 tnt_equivalence=charge.factor,
@@ -97,7 +98,7 @@ def build(scene: Scene) -> Built:
                 burst=charge.burst,
                 time=charge.time,
                 gain=charge.gain,
-                source=curve_source(charge.curves, base_folder=scene.base_folder),
+                source=_source(scene, number),
             )
         sets = [pieces(obj, base_folder=scene.base_folder) for obj in scene.objects]
         for group in sets:
@@ -109,6 +110,13 @@ def build(scene: Scene) -> Built:
     built = Built(engine, sets, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
     _check_names(scene, built)
     return built
+
+
+def _source(scene: Scene, number: int) -> str | dict[str, NDArray[np.float64]]:
+    try:
+        return curve_source(scene.charges[number].curves, base_folder=scene.base_folder)
+    except InputError as error:
+        raise InputError(f"charge.{number}: {error}") from None
 
 
 def _check_step(scene: Scene) -> None:

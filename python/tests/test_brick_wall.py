@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -197,6 +198,6 @@ def test_a_turned_wall_stands_where_its_position_and_rotation_say() -> None:
         ({"brick_mass": 1, "brick_size": (0.3, 0.0, 0.1)}, "brick_size.1 must be greater than 0"),
     ],
 )
-def test_an_impossible_wall_is_refused(keys: dict[str, object], said: str) -> None:
+def test_an_impossible_wall_is_refused(keys: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=said):
         BrickWall(**keys)

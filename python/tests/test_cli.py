@@ -18,7 +18,6 @@ import pytest
 import brisance as br
 from brisance import _engine
 from brisance.cli.main import main, spread
-from brisance.formats import atomic
 
 SCENES = Path(__file__).parents[2] / "scenes"
 WALL = str(SCENES / "brick_wall.toml")
@@ -156,7 +155,7 @@ def test_a_write_cut_short_leaves_the_old_file(
 
     output = tmp_path / f"wall{suffix}"
     output.write_text("precious")
-    monkeypatch.setattr(atomic.os, "replace", fail)
+    monkeypatch.setattr(os, "replace", fail)
     flag = "-o" if suffix == ".usdc" else "--report"
     assert main(["run", WALL, "--frames", "2", flag, str(output)]) == code
     assert capsys.readouterr().err.count("\n") == 1
@@ -169,7 +168,10 @@ def test_ctrl_c_ends_a_long_run(tmp_path: Path) -> None:
     output = tmp_path / "wall.usdc"
     output.write_text("precious")
     arguments = ["run", WALL, "-o", str(output), "--set", "time.duration=100", "--set", "time.step=1e-7"]
-    program = "import sys; from brisance.cli.main import main; print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
+    program = (
+        "import sys; from brisance.cli.main import main; "
+        "print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
+    )
     with subprocess.Popen(
         [sys.executable, "-c", program, *arguments],
         stdout=subprocess.PIPE,

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 import brisance as br
+from brisance import _engine
+from brisance.curve_table import curve_source
 from brisance.errors import InputError
 from brisance.scene_file import dump, load
 from brisance.simulation import simulate
@@ -160,7 +162,10 @@ def test_a_scene_survives_being_written_and_read(tmp_path: Path, path: Path) -> 
         ("charge=[]", "the scene has no charge; add one"),
         ("charge.0.explosive=TNTT", "'TNTT' that is not known; choose"),
         ("charge.0.burst=water", "charge.0.burst must be 'air' or 'surface', not 'water'"),
-        ("charge.0.curves=kingery", "did you mean kingery-bulmash?"),
+        (
+            "charge.0.curves=kingery",
+            "charge.0: curves 'kingery' is not a known source; did you mean kingery-bulmash?",
+        ),
         ("charge.0.curves=none.csv", "none.csv does not exist"),
         ("block.0.density=5", "has both density and mass"),
         ("block.0.name=a/b", "without slashes"),
@@ -284,7 +289,7 @@ def test_what_this_version_leaves_out_is_said(tmp_path: Path) -> None:
 
 
 def test_python_takes_numpy_and_refuses_text() -> None:
-    charge = br.Charge(mass=np.float64(3), position=np.array([0.0, 1.0, 2.0]))
+    charge = br.Charge(mass=np.float64(3), position=np.array([0.0, 1.0, 2.0]))  # type: ignore[arg-type]
     assert charge.position == (0.0, 1.0, 2.0)
     assert isinstance(charge.mass, float)
     with pytest.raises(br.InputError, match="Charge: mass must be a number, not 'heavy'"):
@@ -316,3 +321,44 @@ def test_scaled_charges_scale_the_blast(tmp_path: Path) -> None:
     )
     assert 2 * eighth.bodies.arrival_time_s[0] == pytest.approx(whole.bodies.arrival_time_s[0], rel=1e-7)
     assert math.isfinite(eighth.bodies.launch_speed_m_s[0])
+
+
+def test_a_curve_table_stands_beside_the_scene(tmp_path: Path) -> None:
+    """A table with the built-in curves' own numbers at its rows gives the same pressure at such a row."""
+    path = written(tmp_path, SMALL)
+    distances = np.array([1.0, 2.0, 4.0, 8.0])
+    own = _engine.curves(mass=1.0, distance=distances)
+    rows = zip(own["scaled_distance_m_kg13"], own["overpressure_pa"], strict=True)
+    text = "scaled_distance_m_kg13,overpressure_pa\n" + "".join(f"{z!r},{p!r}\n" for z, p in rows)
+    written(tmp_path, text.replace("np.float64(", "").replace(")", ""), "own.csv")
+    from_table = _engine.curves(
+        mass=1.0, distance=distances, source=curve_source("own.csv", base_folder=tmp_path)
+    )
+    np.testing.assert_allclose(from_table["overpressure_pa"], own["overpressure_pa"], rtol=1e-12)
+    result = simulate(load(path, ["charge.0.curves=own.csv"]))
+    built_in = simulate(load(path))
+    # Between rows a doubling of the distance apart, straight lines in log-log stray by some per cent.
+    assert result.bodies.peak_overpressure_pa[0] == pytest.approx(
+        built_in.bodies.peak_overpressure_pa[0], rel=0.1
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "has no column scaled_distance_m_kg13"),
+        ("scaled_distance_m_kg13\n1\n2\n", "has no column overpressure_pa"),
+        ("scaled_distance_m_kg13,overpressure_pa\n1,2\n", "has 1 rows of numbers"),
+        ("scaled_distance_m_kg13,overpressure_pa\n1,2\n1,1\n", "must rise"),
+        ("scaled_distance_m_kg13,overpressure_pa\n1,2\n2,x\n", "row 3: overpressure_pa must be a number"),
+        ("scaled_distance_m_kg13,overpressure_pa\n1,2\n2,-1\n", "row 3: overpressure_pa must be a finite"),
+        ("scaled_distance_m_kg13,overpressure_pa\n1,2\n2\n", "row 3: has 1 cells"),
+        ("scaled_distance_m_kg13,overpressure_pa,pulse\n1,2,3\n2,1,3\n", "'pulse' is not a known column"),
+    ],
+)
+def test_a_wrong_curve_table_is_refused(tmp_path: Path, text: str, said: str) -> None:
+    written(tmp_path, text, "own.csv")
+    sentence = refusal(written(tmp_path, SMALL), "charge.0.curves=own.csv")
+    assert sentence.startswith("charge.0: ")
+    assert "own.csv" in sentence
+    assert said in sentence

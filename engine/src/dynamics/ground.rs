@@ -95,37 +95,47 @@ impl Impact {
     }
 
     /// Stops the approach of all corners lower than `reached`, and hands the impulses to the body.
-    fn resolve(mut self, offsets: &[DVec3], reached: f64, body: &mut RigidBody) {
-        let low = |offset: &&DVec3| offset.y < reached;
-        let arriving = offsets.iter().filter(low).map(|&o| -self.velocity_at(o).y).fold(0.0, f64::max);
-        let bounce = if arriving > BOUNCE_SPEED { RESTITUTION } else { 0.0 };
-        for sweep in 0..SWEEPS {
-            let restitution = if sweep == 0 { bounce } else { 0.0 };
-            let approaching = |offset: &&DVec3| low(offset) && self.velocity_at(**offset).y < -STOPPED;
-            let count = offsets.iter().filter(approaching).count();
-            if count == 0 {
+    fn resolve(mut self, offsets: &mut [DVec3], reached: f64, body: &mut RigidBody) {
+        let mut count = 0;
+        for i in 0..offsets.len() {
+            if offsets[i].y < reached {
+                offsets.swap(count, i);
+                count += 1;
+            }
+        }
+        let low = &offsets[..count];
+        let arriving = low.iter().map(|&o| -self.velocity_at(o).y).fold(0.0, f64::max);
+        let mut restitution = if arriving > BOUNCE_SPEED { RESTITUTION } else { 0.0 };
+        let mut total = DVec3::ZERO;
+        for _sweep in 0..SWEEPS {
+            let (mut impulse, mut angular, mut pushed) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+            for &offset in low {
+                let velocity = self.velocity_at(offset);
+                if velocity.y < -STOPPED {
+                    let push = self.stopping(offset, velocity, restitution);
+                    impulse += push;
+                    angular += offset.cross(push);
+                    pushed += 1.0;
+                }
+            }
+            if pushed == 0.0 {
                 break;
             }
-            let (mut impulse, mut angular) = (DVec3::ZERO, DVec3::ZERO);
-            for &offset in offsets.iter().filter(approaching) {
-                let push = self.stopping(offset, restitution) / count as f64;
-                impulse += push;
-                angular += offset.cross(push);
-            }
-            self.velocity += impulse * self.inverse_mass;
-            self.spin += self.inverse_inertia * angular;
-            body.velocity = self.velocity;
-            body.angular_momentum += body.world_from_principal.conjugate() * angular;
+            self.velocity += impulse * (self.inverse_mass / pushed);
+            self.spin += self.inverse_inertia * angular / pushed;
+            total += angular / pushed;
+            restitution = 0.0;
         }
+        body.velocity = self.velocity;
+        body.angular_momentum += body.world_from_principal.conjugate() * total;
     }
 
     fn velocity_at(&self, offset: DVec3) -> DVec3 {
         self.velocity + self.spin.cross(offset)
     }
 
-    /// The impulse that stops the approach of one corner, with friction up to the cone [N s].
-    fn stopping(&self, offset: DVec3, restitution: f64) -> DVec3 {
-        let velocity = self.velocity_at(offset);
+    /// The impulse that stops the approach of one corner that moves with `velocity`, with friction up to the cone [N s].
+    fn stopping(&self, offset: DVec3, velocity: DVec3, restitution: f64) -> DVec3 {
         let normal = -(1.0 + restitution) * velocity.y / self.mobility(offset, DVec3::Y);
         let sliding = velocity.with_y(0.0);
         let speed = sliding.length();

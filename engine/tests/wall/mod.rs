@@ -58,7 +58,7 @@ pub fn scene(bodies: Vec<Body>, charges: Vec<Charge>) -> Scene {
         ground: Some(Ground { height: 0.0, friction: 0.6 }),
         charges,
         bodies,
-        time: Time { duration: 0.5, frame_rate: 80.0, step: None },
+        time: Time { duration: 0.4, frame_rate: 100.0, step: None },
         loading: Loading::default(),
         dynamics: Dynamics::default(),
     }
