@@ -2,7 +2,7 @@
 PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
-RUST := Cargo.toml Cargo.lock $(shell find engine bindings -name '*.rs' -o -name '*.csv' -o -name '*.json' -o -name Cargo.toml)
+RUST := Cargo.toml $(shell find engine bindings -name '*.rs' -o -name '*.csv' -o -name '*.json' -o -name Cargo.toml)
 OUT := out
 # Libraries that Blender as a module links to, beyond what a bare Debian carries.
 BLENDER_LIBRARIES := libgl1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1

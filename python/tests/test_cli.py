@@ -229,7 +229,7 @@ def test_the_command_does_what_python_does(capsys: Capture, tmp_path: Path) -> N
     built = br.simulate(
         br.Scene(
             name="brick wall",
-            time=br.Time(duration=0.5, frame_rate=80),
+            time=br.Time(duration=0.4, frame_rate=100),
             ground=br.Ground(height=0, friction=0.6),
             charges=[br.Charge(mass=50, explosive="TNT", position=(0, 0.3, -15))],
             objects=[
@@ -272,7 +272,7 @@ def test_inspect_tells_a_scene_a_result_and_a_report(capsys: Capture, tmp_path: 
     from_usd, _ = done(capsys, "inspect", usd)
     from_report, _ = done(capsys, "inspect", report)
     for text in (from_usd, from_report):
-        assert text.startswith("brick wall: 27 pieces, 41 frames at 80 frames/s, seed 1")
+        assert text.startswith("brick wall: 27 pieces, 41 frames at 100 frames/s, seed 1")
     # The table of objects is the same, whichever file it was read from.
     assert from_usd.split("\n\n")[1] == from_report.split("\n\n")[1]
 
