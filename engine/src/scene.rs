@@ -43,10 +43,10 @@ pub struct Time {
 }
 
 impl Time {
-    /// Frames of the run, with the one at time 0: frame k is at k / frame rate.
+    /// Frames of the run, with the one at time 0: frame k is at k / frame rate. The last is the one nearest to the
+    /// end of the duration.
     pub fn frames(&self) -> usize {
-        // A duration of a whole number of frames must not lose one to rounding.
-        libm::floor(self.duration * self.frame_rate + 1e-6) as usize + 1
+        libm::rint(self.duration * self.frame_rate) as usize + 1
     }
 }
 
@@ -132,6 +132,9 @@ impl Body {
     }
 }
 
+/// More steps than any machine finishes.
+const MOST_STEPS: f64 = 1e10;
+
 impl Scene {
     /// Checks every number of the scene.
     ///
@@ -153,6 +156,10 @@ impl Scene {
         positive("frame rate [1/s]", self.time.frame_rate)?;
         if let Some(step) = self.time.step {
             positive("step [s]", step)?;
+            if self.time.duration / step > MOST_STEPS {
+                let expected = "long enough for the duration to have at most 1e10 steps";
+                return Err(Error::OutOfRange { what: "step [s]", value: step, expected });
+            }
         }
         if let Clearing::Length(length) = self.loading.clearing {
             not_negative("clearing length [m]", length)?;

@@ -127,7 +127,16 @@ impl Simulation {
             .enumerate()
             .map(|(index, (target, body))| {
                 let on_ground = joint_friction(body.friction, scene.ground.map_or(0.0, |g| g.friction));
-                let in_place = if support.is_grounded(index) { on_ground } else { body.friction };
+                let on_carriers = support.carriers(index).iter().map(|&(carrier, share)| {
+                    share * joint_friction(body.friction, scene.bodies[carrier].friction)
+                });
+                let in_place = if support.is_grounded(index) {
+                    on_ground
+                } else if support.hangs(index) {
+                    body.friction
+                } else {
+                    on_carriers.sum()
+                };
                 Life::new(target, in_place, on_ground)
             })
             .collect();
@@ -153,7 +162,8 @@ impl Simulation {
         1.0 / (self.frame_rate * self.steps_per_frame as f64)
     }
 
-    /// Runs to the end. `observer` hears the frames done and their number after each, and may stop the run.
+    /// Runs to the end. `observer` hears after each step how many frames are done, and of how many, and may stop
+    /// the run.
     ///
     /// # Errors
     /// [`Error::Cancelled`] when the observer breaks off.
@@ -168,12 +178,12 @@ impl Simulation {
                 for step in first..first + self.steps_per_frame {
                     let dt = self.step();
                     self.advance(step as f64 * dt, (step + 1) as f64 * dt, &mut left);
+                    if observer(frame, self.frames).is_break() {
+                        return Err(Error::Cancelled);
+                    }
                 }
             }
             self.record(frame, &mut recording);
-            if observer(frame + 1, self.frames).is_break() {
-                return Err(Error::Cancelled);
-            }
         }
         recording.facts = self.bodies.iter().zip(self.lives).map(|(body, life)| life.finish(body)).collect();
         recording.warnings = self.warnings;
@@ -276,7 +286,10 @@ impl World {
                 return self.land(body, life, t1 - t0);
             }
             Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Standing if !life.queue.acts(t0, t1) && !carry.is_moved() => return Concern::Nothing,
+            Phase::Standing if !life.queue.acts(t0, t1) && !carry.is_moved() => {
+                life.rubbed = DVec3::ZERO;
+                return Concern::Nothing;
+            }
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {

@@ -8,17 +8,13 @@ from __future__ import annotations
 
 
 class BrisanceError(Exception):
-    """Base of every exception that Brisance raises on purpose. Its text is one sentence without a final
-    newline.
-    """
+    """Base of every exception that Brisance raises on purpose. Its text is one sentence."""
 
     exit_code = 1
     """What the command line exits with."""
 
 
 class InputError(BrisanceError):
-    """What the user gave is wrong. The sentence names the file or key, what is wrong, and what would be
-    right.
-    """
+    """What the user gave is wrong. The sentence names file or key, what is wrong and what would be right."""
 
     exit_code = 2

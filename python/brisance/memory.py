@@ -26,13 +26,12 @@ def available_bytes() -> int | None:
 
 
 def check_fits(frames: int, pieces: int) -> None:
-    """Raise :class:`InputError`, saying how much is needed, unless the recording fits in the memory
-    available.
-    """
+    """Raise :class:`InputError`, saying how much is needed, unless a recording fits in memory."""
     needed, available = recording_bytes(frames, pieces), available_bytes()
     if available is not None and needed > available:
+        noun = "piece" if pieces == 1 else "pieces"
         raise InputError(
-            f"{frames:,} frames of {pieces:,} pieces need {_amount(needed)} of memory and "
+            f"{frames:,} frames of {pieces:,} {noun} need {_amount(needed)} of memory and "
             f"{_amount(available)} are available; lower time.duration, "
             "time.frame_rate or the number of pieces, or give --frames."
         )

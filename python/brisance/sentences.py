@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 from dataclasses import dataclass
 from typing import Any, get_args
 
@@ -96,6 +97,8 @@ def _text(
         return f"is missing: {_first_clause(owner.model_fields[last].description)}"
     if kind == "value_error":
         return str(detail.get("ctx", {}).get("error", detail["msg"]))
+    if isinstance(detail["input"], float) and not math.isfinite(detail["input"]):
+        return f"must be a finite number, not {detail['input']}"
     expected = list(dict.fromkeys(_expected(d) for d in same))
     return f"must be {' or '.join(expected)}, not {value_text(detail['input'])}"
 

@@ -85,7 +85,7 @@ def done(capsys: Capture, *arguments: str | Path) -> tuple[str, str]:
         (["run", WALL, "--bogus"], "--bogus"),
         (["explode"], "explode"),
         (["inspect", "none.usdc"], "does not exist"),
-        (["inspect", "bad.usdc"], "not a USD file"),
+        (["inspect", "bad.usdc"], "cannot be read as USD"),
         (["inspect", "bad.json"], "not a report of Brisance"),
         (["inspect", "bad.json", "--set", "seed=2"], "--set changes a scene"),
         (["curves"], "--mass"),
@@ -203,6 +203,21 @@ def test_run_tells_what_happened_and_writes(capsys: Capture, tmp_path: Path) -> 
     assert sorted(path.name for path in tmp_path.iterdir()) == ["wall.json", "wall.usdc"]
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a device that is always full")
+def test_a_full_disk_under_the_output_is_one_sentence() -> None:
+    program = "import sys; from brisance.cli.main import main; sys.exit(main())"
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(
+            [sys.executable, "-c", program, "curves", "--mass", "1", "--quiet"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert ended.returncode == 1
+    assert ended.stderr == "brisance: the output: no space left on device.\n"
+
+
 def test_quiet_prints_nothing(capsys: Capture, tmp_path: Path) -> None:
     report = tmp_path / "wall.json"
     assert done(capsys, "run", WALL, "--quiet", "--report", report) == ("", "")
@@ -273,8 +288,9 @@ def test_inspect_tells_a_scene_a_result_and_a_report(capsys: Capture, tmp_path: 
     from_report, _ = done(capsys, "inspect", report)
     for text in (from_usd, from_report):
         assert text.startswith("brick wall: 27 pieces, 41 frames at 100 frames/s, seed 1")
-    # The table of objects is the same, whichever file it was read from.
-    assert from_usd.split("\n\n")[1] == from_report.split("\n\n")[1]
+    # The tables of charges and of facts are the same, whichever file they were read from.
+    for number in (1, 3):
+        assert from_usd.split("\n\n")[number] == from_report.split("\n\n")[number]
 
 
 @pytest.mark.parametrize("name", [path.name for path in sorted(SCENES.glob("*.toml"))])

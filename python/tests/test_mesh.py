@@ -18,6 +18,7 @@ from brisance import _engine
 from brisance.errors import InputError
 from brisance.model import Charge, Ground, MeshObject, Scene
 from brisance.objects.mesh import MeshBody, mesh_body, mesh_contains
+from brisance.objects.mesh.repair import repair
 from brisance.rotation import matrix_from_quaternion, quaternion_from_degrees, rotate
 from brisance.simulation import build
 
@@ -218,6 +219,84 @@ def test_self_crossing_mesh_weighs_what_it_encloses(tmp_path: Path) -> None:
     assert len(body.warnings) == 1
     # Two triangles of 1/2 m² each; the outline is built from cells about 1/100 as wide as the mesh.
     assert body.volume == pytest.approx(1.0, rel=0.03)
+
+
+def pentagram(thickness: float) -> tuple[Floats, list[tuple[int, ...]]]:
+    """A prism over a star drawn in one stroke through five points of the unit circle."""
+    turn = 2 * np.arange(5) * (2 * math.pi / 5)
+    outline = np.column_stack([np.cos(turn), np.sin(turn)])
+    points = np.concatenate([np.column_stack([outline, np.full(5, z)]) for z in (0.0, thickness)])
+    ends = [(0, 1, 2), (0, 2, 3), (0, 3, 4)]
+    sides = [(n, (n + 1) % 5, (n + 1) % 5 + 5, n + 5) for n in range(5)]
+    return points, [*(end[::-1] for end in ends), *((a + 5, b + 5, c + 5) for a, b, c in ends), *sides]
+
+
+STROKE_AREA = 2.5 * math.sin(4 * math.pi / 5)
+"""Area [m²] that the stroke of the star runs around, its five-sided core counted twice."""
+CORE_AREA = 2.5 * math.sin(2 * math.pi / 5) * (math.cos(2 * math.pi / 5) / math.cos(math.pi / 5)) ** 2
+
+
+def test_core_of_a_star_counts_once(tmp_path: Path) -> None:
+    body = body_of_faces(tmp_path, *pentagram(1.0))
+    # The outline is built from lines about 1/150 of the star's width apart.
+    assert body.volume == pytest.approx(STROKE_AREA - CORE_AREA, rel=0.01)
+    assert "takes an outline of all that it encloses" in body.warnings[0]
+
+
+def test_crossings_too_thin_for_an_outline_are_said(tmp_path: Path) -> None:
+    body = body_of_faces(tmp_path, *pentagram(1e-4))
+    assert body.volume == pytest.approx(STROKE_AREA * 1e-4, rel=1e-6)
+    assert "its surface crosses itself" in body.warnings[0]
+
+
+def test_touching_parts_lose_the_wall_between_them(tmp_path: Path) -> None:
+    body = body_of_faces(tmp_path, *pair(shifted(0.0), shifted((1.0, 0.0, 0.0))))
+    edges = body.vertices[body.triangles[:, 1:]] - body.vertices[body.triangles[:, :1]]
+    assert body.volume == pytest.approx(2.0, rel=ROUNDING)
+    assert np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2 == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("extra", [(1, 4, 10, 7), (10, 4, 12, 13)])
+def test_inner_wall_and_fin_are_left_out(tmp_path: Path, extra: tuple[int, ...]) -> None:
+    """A box cut across the middle of its x side, with a wall inside or a fin on its top."""
+    outline = np.array([(-0.5, 0), (0, 0), (0.5, 0), (0.5, 1), (0, 1), (-0.5, 1)])
+    fin = [(0, 2, 0), (0, 2, 1)]
+    points = np.concatenate([*(np.column_stack([outline, np.full(6, z)]) for z in (0.0, 1.0)), fin])
+    ends = [(0, 1, 4, 5), (1, 2, 3, 4)]
+    sides = [(n, (n + 1) % 6, (n + 1) % 6 + 6, n + 6) for n in range(6)]
+    faces = [*(end[::-1] for end in ends), *(tuple(n + 6 for n in end) for end in ends), *sides]
+    body = body_of_faces(tmp_path, points, [*faces, extra])
+    assert body.volume == pytest.approx(1.0, rel=ROUNDING)
+    assert "2 faces of fins or inner walls were left out" in body.warnings[0]
+    assert len(body.look.face_counts) == len(faces) + 1
+
+
+def test_corner_that_is_not_a_number_is_cut_off(tmp_path: Path) -> None:
+    points = CUBE_POINTS.copy()
+    points[7] = np.nan
+    body = body_of_faces(tmp_path, points, CUBE_QUADS)
+    # What is left of three quads and the lid over the gap bound half the cube or more.
+    assert 0.5 <= body.volume < 1.0
+    assert "not a number" in body.warnings[0]
+    assert np.isfinite(body.look.points).all()
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(
+    st.lists(st.tuples(*[st.integers(0, 3)] * 3), min_size=3, max_size=9),
+    st.lists(st.tuples(*[st.integers(0, 8)] * 3), min_size=1, max_size=20),
+)
+def test_any_soup_is_a_closed_body_or_refused(
+    points: list[tuple[int, int, int]], triangles: list[tuple[int, int, int]]
+) -> None:
+    corners = np.array(triangles) % len(points)
+    try:
+        mesh = repair(np.array(points, float), corners, label="soup")
+    except InputError:  # empty or flat
+        return
+    found = _engine.mass_properties(vertices=mesh.points, triangles=mesh.triangles)
+    # Its points lie in a cube of 3 m; the outline may bulge out of it by half a cell.
+    assert 0.0 < found["volume_m3"] < 28.0
 
 
 def sheet(height: float) -> tuple[Floats, list[tuple[int, ...]]]:

@@ -434,6 +434,19 @@ def test_progress_ends_with_all_pieces(layout: str) -> None:
     assert calls == sorted(calls)
 
 
+def test_an_interrupted_write_leaves_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "result.usdc"
+    path.write_bytes(b"old")
+
+    def interrupt(done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_usd(two_objects(), path, progress=interrupt)
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_refusals_name_what_is_wrong(tmp_path: Path) -> None:
     result = synthetic_result(frames=1)
     with pytest.raises(InputError, match=r"wall\.abc does not name a USD file"):

@@ -7,6 +7,9 @@ use super::GRAVITY;
 /// Two faces closer than this stand on each other [m]: a bed of mortar, or the sloppiness of a hand-made scene.
 const JOINT: f64 = 0.02;
 
+/// A body that another one carries is on the ground as well only when it is this near [m].
+const CONTACT: f64 = 1e-3;
+
 /// Where a body stands at the start of a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Footing {
@@ -61,8 +64,14 @@ impl Support {
         by_top.sort_by(|&a, &b| footings[a].high.y.total_cmp(&footings[b].high.y).then(a.cmp(&b)));
         let carriers: Vec<Vec<(usize, f64)>> =
             (0..count).map(|body| carriers_of(body, footings, &by_top)).collect();
-        let grounded =
-            footings.iter().map(|f| ground.is_some_and(|height| f.low.y <= height + JOINT)).collect();
+        let grounded = footings
+            .iter()
+            .zip(&carriers)
+            .map(|(foot, carriers)| {
+                let joint = if carriers.is_empty() { JOINT } else { CONTACT };
+                ground.is_some_and(|height| foot.low.y <= height + joint)
+            })
+            .collect();
         let mut downward: Vec<usize> = (0..count).collect();
         downward.sort_by(|&a, &b| footings[b].low.y.total_cmp(&footings[a].low.y).then(a.cmp(&b)));
         let mut support = Self {
@@ -109,6 +118,11 @@ impl Support {
         }
     }
 
+    /// Bodies that carry this one, with their shares of its weight.
+    pub fn carriers(&self, body: usize) -> &[(usize, f64)] {
+        &self.carriers[body]
+    }
+
     /// Whether the body stands on the ground.
     pub fn is_grounded(&self, body: usize) -> bool {
         self.grounded[body]
@@ -136,6 +150,12 @@ impl Support {
                 left.push(body);
             }
         }
+        for carriers in &mut self.carriers {
+            if carriers.iter().any(|&(c, _)| !self.standing[c] && !self.anchored[c]) && carriers.len() > 1 {
+                carriers.retain(|&(c, _)| self.standing[c] || self.anchored[c]);
+                share_out(carriers);
+            }
+        }
         self.settle_weights();
     }
 
@@ -144,6 +164,9 @@ impl Support {
         self.standing[body] = true;
         self.grounded[body] = true;
         self.carriers[body].clear();
+        for carriers in &mut self.carriers {
+            carriers.retain(|&(carrier, _)| carrier != body);
+        }
         self.carry[body] = Carry { normal_force: self.weight[body], ..Carry::default() };
     }
 
@@ -175,11 +198,16 @@ fn carriers_of(body: usize, footings: &[Footing], by_top: &[usize]) -> Vec<(usiz
         .filter(|&(_, area)| area > 0.0)
         .collect();
     carriers.sort_by_key(|&(i, _)| i);
-    let total: f64 = carriers.iter().map(|&(_, area)| area).sum();
-    for (_, share) in &mut carriers {
+    share_out(&mut carriers);
+    carriers
+}
+
+/// Makes shares add up to 1.
+fn share_out(carriers: &mut [(usize, f64)]) {
+    let total: f64 = carriers.iter().map(|&(_, share)| share).sum();
+    for (_, share) in carriers {
         *share /= total;
     }
-    carriers
 }
 
 fn overlap_from_above(a: &Footing, b: &Footing) -> f64 {

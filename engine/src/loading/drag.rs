@@ -70,11 +70,11 @@ impl Wind {
         }
         let (since, until) = (t0 - self.arrival, t1 - self.arrival);
         let duration = self.pulse.duration;
-        if since >= duration {
+        if t0 >= self.arrival + duration {
             let speed = self.pulse.impulse(since, until) / length / self.impedance;
             return (self.direction * speed, 0.0);
         }
-        let (x0, x1) = (since / duration, until / duration);
+        let (x0, x1) = (since / duration, (until / duration).min(1.0));
         let mean = |moment: f64| moment / (x1 - x0);
         let b = self.pulse.decay;
         let first = mean(integrate_poly_exp([1.0, -1.0], b, x0, x1));
@@ -105,8 +105,8 @@ pub struct Resistance {
 
 /// Lift of a plate (thesis 2.38): normal to the flow, in the plane of flow and plate normal.
 ///
-/// `F_L = ½ ρ |w|² C_L A sin α cos α` at the angle of attack α: with C_L = C_D this and the drag together are
-/// a force along the plate's normal, as on a flat plate with separated flow.
+/// `F_L = ½ ρ |w|² C_L A sin α cos α` at the angle of attack α: the part across the flow of a pressure force along
+/// the plate's normal, as on a flat plate with separated flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lift {
     /// Which principal axis is normal to the plate: 0, 1 or 2.

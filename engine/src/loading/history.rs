@@ -163,7 +163,7 @@ impl FaceHistory {
         if !self.front {
             return incident - positive * weight;
         }
-        let phi = positive / self.incident.peak;
+        let phi = if positive > 0.0 { positive / self.incident.peak } else { 0.0 };
         let drag = phi * phi * (self.drag[0] + self.drag[1] * phi);
         let flow = if self.steady_drag { drag } else { 0.0 };
         let cancelled = drag + if self.static_pressure { positive } else { 0.0 };
@@ -255,10 +255,10 @@ fn times_line<const N: usize>(c: [f64; N], k: f64) -> [f64; N] {
 }
 
 /// Impulse of the fully reflected pulse at an angle [Pa s]: from the incident one at grazing incidence to the
-/// normally reflected one head on, in proportion to the pressure that reflection adds.
+/// normally reflected one head on, in proportion to the pressure that reflection adds, and never beyond them.
 fn oblique_impulse(field: &BlastField, point: &BlastPoint, coefficient: f64) -> f64 {
     let head_on = field.reflection_coefficient(1.0, point.overpressure);
-    let share = (coefficient - 1.0) / (head_on - 1.0);
+    let share = ((coefficient - 1.0) / (head_on - 1.0)).clamp(0.0, 1.0);
     point.impulse + (point.reflected_impulse - point.impulse) * share
 }
 

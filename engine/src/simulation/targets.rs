@@ -71,9 +71,16 @@ impl LoadQueue {
         self.start < t1 && self.end > t0
     }
 
-    /// How long loads act on the body, from the first to the last [s]; infinite without loads.
-    fn length(&self) -> f64 {
-        if self.start < self.end { self.end - self.start } else { f64::INFINITY }
+    /// The shortest wind on the body, or the shortest panel load where no wind is followed [s]; infinite without
+    /// loads.
+    fn shortest(&self) -> f64 {
+        let panels = self.panels.iter().map(|l| l.history.end() - l.history.arrival());
+        let winds = self.winds.iter().map(|w| w.end - w.arrival);
+        if self.winds.is_empty() {
+            panels.fold(f64::INFINITY, f64::min)
+        } else {
+            winds.fold(f64::INFINITY, f64::min)
+        }
     }
 }
 
@@ -330,7 +337,7 @@ const SHORTEST_STEP: f64 = 1e-5;
 pub(super) fn steps_per_frame(scene: &Scene, targets: &[Target]) -> usize {
     let interval = 1.0 / scene.time.frame_rate;
     let step = scene.time.step.unwrap_or_else(|| {
-        let shortest = targets.iter().map(|t| t.queue.length()).fold(f64::INFINITY, f64::min);
+        let shortest = targets.iter().map(|t| t.queue.shortest()).fold(f64::INFINITY, f64::min);
         (shortest / STEPS_A_LOAD).clamp(SHORTEST_STEP, LONGEST_STEP)
     });
     (libm::ceil(interval / step - 1e-9) as usize).max(1)

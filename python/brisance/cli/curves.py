@@ -191,7 +191,8 @@ def notes(extension: NDArray[np.int8], derived: list[str], source: str) -> list[
     named = [name for name, key in zip(COLUMNS, KEYS, strict=True) if key in derived]
     if named:
         found.append(
-            f"note: {source} does not give {', '.join(named)} (*); they follow from its overpressure."
+            f"note: {source} itself does not give {', '.join(named)} (*); pressures and front come from its "
+            "overpressure by the shock relations, arrivals from the front, the rest from kingery-bulmash."
         )
     for sign, what in ((-1, "nearer"), (1, "farther")):
         number = int((extension == sign).sum())

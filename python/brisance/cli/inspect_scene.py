@@ -109,9 +109,7 @@ def _blast(
 def _distance(
     charge: Charge, built: Built, centre: NDArray[np.float64], orientation: NDArray[np.float64], body: int
 ) -> float:
-    """From a charge to the nearest point of the box around a body, which for bricks and blocks is the body
-    [m].
-    """
+    """From a charge to the box around a body [m]; bricks and blocks are that box."""
     w, x, y, z = orientation
     own = rotate((w, -x, -y, -z), np.asarray(charge.position) - centre)
     points = built.meshes[body].points

@@ -73,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of our output has gone; nothing more can be said to it, not even at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+    except OSError as error:
+        return _fail(f"{error.filename or 'the output'}: {(error.strerror or str(error)).lower()}.", 1)
     except Exception as error:
         return _unexpected(error)
     if code == 130:
@@ -81,9 +83,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """Repeat the flag before each of several values: ``--distance 5 10`` becomes ``--distance 5 --distance
-    10``.
-    """
+    """Repeat a flag before each of its values: ``--distance 5 10`` as ``--distance 5 --distance 10``."""
     result: list[str] = []
     flag = ""
     for argument in arguments:
@@ -121,5 +121,7 @@ def _unexpected(error: Exception) -> int:
 
 
 def _fail(sentence: str, code: int) -> int:
-    print(f"brisance: {sentence}", file=sys.stderr)
+    """Print one sentence, ended as a sentence is, and return the exit code."""
+    ended = sentence if sentence.endswith((".", "?")) else f"{sentence}."
+    print(f"brisance: {ended}", file=sys.stderr)
     return code

@@ -85,7 +85,7 @@ def summary(result: Result, *, output: Path | None, report: Path | None) -> str:
     lines = [
         f"{result.scene.name}: {count(len(bodies), 'piece')}, {count(len(result.times), 'frame')} "
         f"({result.times[-1]:g} s at {time.frame_rate:g} frames/s), step {1e3 * result.step_s:.3g} ms, "
-        f"simulated in {result.timing_s['total']:.3f} s"
+        f"simulated in {result.timing_s['total'] - result.timing_s.get('write', 0.0):.3f} s"
     ]
     reached = np.isfinite(bodies.arrival_time_s)
     if reached.any():

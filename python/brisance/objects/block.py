@@ -65,9 +65,7 @@ def _corner(x: int, y: int, z: int) -> int:
 
 
 def _sides(points_per_corner: int) -> list[list[int]]:
-    """The six sides, each through its four corners in turn; with bevels, through the points that lie on
-    it.
-    """
+    """The six sides, each through its four corners in turn or, with bevels, the points that lie on it."""
     faces = []
     for axis, side in itertools.product(range(3), (0, 1)):
         face = []
@@ -102,9 +100,7 @@ def _outward(points: NDArray[np.float64], face: list[int]) -> list[int]:
 
 
 def _flat(corners: NDArray[np.float64], half: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Texture coordinates [m] of a face: its corners seen along the axis it faces most, upright, from a
-    corner of it.
-    """
+    """Texture coordinates [m] of a face: its corners, upright, seen along the axis it faces most."""
     a, b, c = corners[:3]
     normal = np.cross(b - a, c - b)
     axis = int(np.argmax(np.abs(normal)))

@@ -39,9 +39,7 @@ class Layout:
     centre: NDArray[np.float64]
     """(n, 3) centres [m]; the origin is the middle of the wall's foot."""
     buried: NDArray[np.bool_]
-    """(n, 6) which of the sides -x, +x, -y, +y, -z, +z lie against a neighbour or the ground and carry no
-    load.
-    """
+    """(n, 6) which sides -x, +x, -y, +y, -z, +z lie against a neighbour or the ground, unloaded."""
 
 
 def layout(wall: BrickWall) -> Layout:

@@ -96,9 +96,9 @@ def write_usd(
     layer = build_layer(result, layout=layout, progress=progress)
     with replacing(path) as temporary:
         if path.suffix.lower() == ".usdz":
-            _package(layer, temporary, name=path.stem)
+            _package(layer, temporary, shown=path)
         else:
-            _export(layer, temporary)
+            _export(layer, temporary, shown=path)
 
 
 def build_layer(
@@ -169,22 +169,23 @@ def _version() -> str:
     return str(brisance.__version__)
 
 
-def _export(layer: Sdf.Layer, path: Path) -> None:
-    with _refusals(path):
+def _export(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
+    """Write a layer to ``path``; an error names the file the user asked for, ``shown``."""
+    with _refusals(shown):
         if not layer.Export(str(path)):
-            raise InputError(f"{path} could not be written; check the free space on its disk.")
+            raise InputError(f"{shown} could not be written; check the free space on its disk.")
 
 
-def _package(layer: Sdf.Layer, path: Path, *, name: str) -> None:
+def _package(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
     from pxr import UsdUtils
 
     with TemporaryDirectory() as folder:
-        inner = Path(folder) / f"{Tf.MakeValidIdentifier(name)}.usdc"
-        _export(layer, inner)
+        inner = Path(folder) / f"{Tf.MakeValidIdentifier(shown.stem)}.usdc"
+        _export(layer, inner, shown=shown)
         os.utime(inner, (_PACKAGE_TIME, _PACKAGE_TIME))
-        with _refusals(path):
+        with _refusals(shown):
             if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(inner)), str(path)):
-                raise InputError(f"{path} could not be written; check the free space on its disk.")
+                raise InputError(f"{shown} could not be written; check the free space on its disk.")
 
 
 @contextmanager

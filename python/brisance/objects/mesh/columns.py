@@ -116,12 +116,12 @@ def outline(points: Points, triangles: Indices, *, cells: int = 48) -> tuple[Poi
     """A surface that does not cross itself around all that a closed surface encloses, of the same volume.
 
     It follows the original to about half a cell, and edges sharper than that are rounded; a cubic body has
-    ``cells`` of them along a side, a long one more along its length. Returns no triangles if nothing is
-    enclosed.
+    ``cells`` of them along a side, a long one more along its length. Returns no triangles if much of
+    it is thinner than a cell.
     """
     low = points[triangles].min(axis=(0, 1))
     extent = points[triangles].max(axis=(0, 1)) - low
-    cell = max(float(np.cbrt(extent.prod())), float(extent.max()) / 8.0) / cells
+    cell = max(float(np.cbrt(extent.prod())), float(extent.max()) / 4.0) / cells
     finer = 3
     lines = max(1, round(float(extent[:2].max()) / cell)) * finer
     columns = Columns.through(points, triangles, cells=lines)
@@ -132,6 +132,8 @@ def outline(points: Points, triangles: Indices, *, cells: int = 48) -> tuple[Poi
     bounds = [*(low - width), *(low + extent + width)]
     mesh = manifold3d.Manifold.level_set(field, bounds, width, 0.0).simplify(0.2 * width).to_mesh64()
     vertices, faces = np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, np.int64)
+    if not len(faces) or volume(vertices, faces) < 0.7 * columns.volume:
+        return np.empty((0, 3)), np.empty((0, 3), np.int64)
     middle = centroid(vertices, faces)
     factor = np.cbrt(columns.volume / volume(vertices, faces))
     return middle + factor * (vertices - middle), faces

@@ -76,16 +76,22 @@ def repair(points: Points, triangles: Indices, *, label: str) -> RepairedMesh:
     turned[inverted] ^= True
     _count_turned(turned, kept, notes)
     result = _free_of_crossings(_united(solids, notes), notes) if solids else None
-    if result is None or is_flat(volume(result.points, result.triangles), result.points, result.triangles):
+    if result is None or not _is_body(result):
         result = surface.hull()
         notes = Notes(whole_hull=True, doubled=notes.doubled, not_numbers=notes.not_numbers)
-        if not len(result.triangles) or is_flat(
-            volume(result.points, result.triangles), result.points, result.triangles
-        ):
+        if not _is_body(result):
             raise InputError(f"{label} is flat: it encloses no volume; give a mesh with some thickness")
     notes.enclosed = volume(result.points, result.triangles)
     used, index = np.unique(result.triangles, return_inverse=True)
     return RepairedMesh(result.points[used], index.reshape(-1, 3), kept, turned, notes.clauses())
+
+
+def _is_body(surface: Surface) -> bool:
+    """Whether a closed surface encloses a volume worth the name, its faces outwards."""
+    if not len(surface.triangles):
+        return False
+    enclosed = volume(surface.points, surface.triangles)
+    return enclosed > 0.0 and not is_flat(enclosed, surface.points, surface.triangles)
 
 
 def _solids(surface: Surface, notes: Notes) -> list[tuple[Surface, Surface]]:
@@ -195,6 +201,7 @@ def _free_of_crossings(surface: Surface, notes: Notes) -> Surface:
         return surface
     points, triangles = outline(surface.points, surface.triangles)
     if not len(triangles):
+        notes.crossed = True
         return surface
     notes.rebuilt = True
     return Surface.new(points, triangles)

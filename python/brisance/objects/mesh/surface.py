@@ -108,6 +108,7 @@ class Notes:
     flat_parts: int = 0
     joined_parts: int = 0
     rebuilt: bool = False
+    crossed: bool = False
     enclosed: float = 0.0
 
     def clauses(self) -> list[str]:
@@ -152,6 +153,10 @@ class Notes:
             )
         if self.rebuilt:
             said.append("its surface crosses itself, so the physics takes an outline of all that it encloses")
+        if self.crossed:
+            said.append(
+                "its surface crosses itself, and places inside several of its layers count several times"
+            )
         if said:
             said.append(f"its volume is {self.enclosed:.4g} m³")
         return said

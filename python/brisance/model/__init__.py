@@ -1,0 +1,37 @@
+"""The scene: what an artist says, validated, in SI units (metres, kilograms, seconds, pascals, kelvins).
+
+The same classes serve the scene file and Python. Each is frozen, refuses unknown keys, and takes numbers only
+where it asks for numbers (no text, no true or false, no infinity). Axes are right-handed with Y up; angles
+are in degrees, because a person types them here.
+
+A value out of range raises :class:`brisance.errors.InputError` with one sentence.
+"""
+
+from __future__ import annotations
+
+from brisance.model.base import Material, Model
+from brisance.model.charge import Charge, explosive_factor
+from brisance.model.objects import AnyObject, Block, BrickWall, MeshObject, SceneObject, object_keys
+from brisance.model.scene import Scene
+from brisance.model.settings import Air, Dynamics, Ground, Loading, Occlusion, SceneSettings, Time
+
+__all__ = [
+    "Air",
+    "AnyObject",
+    "Block",
+    "BrickWall",
+    "Charge",
+    "Dynamics",
+    "Ground",
+    "Loading",
+    "Material",
+    "MeshObject",
+    "Model",
+    "Occlusion",
+    "Scene",
+    "SceneObject",
+    "SceneSettings",
+    "Time",
+    "explosive_factor",
+    "object_keys",
+]
