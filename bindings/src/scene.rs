@@ -24,6 +24,9 @@ use crate::{InputError, engine, refused};
 /// How often a run listens for Ctrl-C and reports how far it is.
 const HEARTBEAT: Duration = Duration::from_millis(50);
 
+/// Threads beyond this only cost time to start; the result is the same for any number.
+const MOST_THREADS: usize = 256;
+
 /// A length, or the name of a way to find it.
 #[derive(FromPyObject)]
 pub enum ClearingArgument {
@@ -215,7 +218,7 @@ impl Scene {
             match threads {
                 None => work(),
                 Some(count) => rayon::ThreadPoolBuilder::new()
-                    .num_threads(count)
+                    .num_threads(count.min(MOST_THREADS))
                     .build()
                     .map_err(|e| InputError::new_err(format!("{count} threads could not be started: {e}")))?
                     .install(work),

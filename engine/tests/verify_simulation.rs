@@ -84,8 +84,8 @@ fn arrivals_agree_with_kingery_bulmash() {
 
 #[test]
 fn high_friction_keeps_the_low_courses() {
-    let mut scene = scene(bricks(6, 2.0), vec![Charge::tnt(4.0, DVec3::new(0.0, 0.5, -3.0))]);
-    scene.ground.as_mut().unwrap().friction = 2.0;
+    let mut scene = scene(bricks(6, 2.5), vec![Charge::tnt(4.0, DVec3::new(0.0, 0.5, -3.0))]);
+    scene.ground.as_mut().unwrap().friction = 2.5;
     scene.time.duration = 0.8;
     let recording = run(&scene);
     let (first, last) = (&recording.positions[..27], &recording.positions[recording.positions.len() - 27..]);
