@@ -61,6 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
         code = app(args=spread(given) or ["--help"], prog_name="brisance", standalone_mode=False)
+        sys.stdout.flush()
     except BrisanceError as error:
         return _fail(str(error), error.exit_code)
     except _UsageError as error:
@@ -70,16 +71,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return _fail("there is not enough memory for this; lower the number of frames or pieces.", 1)
     except BrokenPipeError:
-        # The reader of our output has gone; nothing more can be said to it, not even at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _silence_output()
         return 1
     except OSError as error:
+        if error.filename is None:
+            _silence_output()
         return _fail(f"{error.filename or 'the output'}: {(error.strerror or str(error)).lower()}.", 1)
     except Exception as error:
         return _unexpected(error)
     if code == 130:
         return _fail("stopped.", 130)
     return code if isinstance(code, int) else 0
+
+
+def _silence_output() -> None:
+    """Nothing more can be said to whoever reads our output: not even what is still buffered, at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
