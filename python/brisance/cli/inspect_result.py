@@ -10,18 +10,8 @@ from typing import Any
 
 from brisance.cli.table import Cell, count, table
 from brisance.errors import InputError
+from brisance.formats.report import SCALAR_FACTS
 
-FACTS = (
-    "mass_kg",
-    "frontal_area_m2",
-    "distance_m",
-    "arrival_time_s",
-    "peak_overpressure_pa",
-    "peak_load_pa",
-    "attenuation",
-    "launch_speed_m_s",
-    "rest_time_s",
-)
 """Facts of a piece that are one number, by their names in the report."""
 
 _CHARGES = ("charge", "mass kg", "TNT kg", "position m", "burst", "time s", "gain")
@@ -47,7 +37,7 @@ def describe_report(path: Path) -> str:
                     [(name, len(masses), sum(masses)) for name, masses in groups.items()],
                 ),
                 "",
-                _facts({name: _range([body[name] for body in bodies]) for name in FACTS}),
+                _facts({name: _range([body[name] for body in bodies]) for name in SCALAR_FACTS}),
                 *(f"warning: {warning}" for warning in report["warnings"]),
             ]
         )
@@ -109,7 +99,7 @@ def _charges(charges: Sequence[_Charge]) -> str:
 
 def _facts(ranges: Mapping[str, tuple[float, float] | None]) -> str:
     """The smallest and the largest value of each fact over all pieces, without facts that no piece has."""
-    rows = [(name, *both) for name in FACTS if (both := ranges.get(name)) is not None]
+    rows = [(name, *both) for name in SCALAR_FACTS if (both := ranges.get(name)) is not None]
     return table(("of a piece", "smallest", "largest"), rows)
 
 

@@ -37,6 +37,8 @@ _PER_BODY = (
     "rest_time_s",
     "final_position_m",
 )
+SCALAR_FACTS = tuple(name for name in _PER_BODY if name not in ("impulse_n_s", "final_position_m"))
+"""Facts of a body that are one number, in the report's order."""
 
 
 def report(result: Result) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import numpy as np
 from pxr import Tf, Usd, UsdGeom
 
 from brisance.errors import InputError
-from brisance.formats.usd.facts import SCALARS
+from brisance.formats.report import SCALAR_FACTS
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def _charge(prim: Usd.Prim) -> ChargeSummary:
 
 def _fact_ranges(objects: list[Usd.Prim]) -> dict[str, tuple[float, float]]:
     ranges = {}
-    for name in SCALARS:
+    for name in SCALAR_FACTS:
         parts = [_fact_values(prim, name) for prim in objects]
         values = np.concatenate(parts) if parts else np.empty(0)
         values = values[~np.isnan(values)]

@@ -12,22 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, Vt
 
+from brisance.formats.report import SCALAR_FACTS
 from brisance.formats.usd.authoring import attribute
 
 if TYPE_CHECKING:
     from brisance.result import Result
 
-SCALARS = (
-    "mass_kg",
-    "frontal_area_m2",
-    "distance_m",
-    "arrival_time_s",
-    "peak_overpressure_pa",
-    "peak_load_pa",
-    "attenuation",
-    "launch_speed_m_s",
-    "rest_time_s",
-)
 """Facts that are one number a piece."""
 
 VECTORS = ("impulse_n_s", "final_position_m")
@@ -40,7 +30,9 @@ class Facts:
     """The facts of every piece of a result, in columns."""
 
     def __init__(self, result: Result) -> None:
-        self._scalars = {name: np.asarray(getattr(result.bodies, name), dtype=np.float64) for name in SCALARS}
+        self._scalars = {
+            name: np.asarray(getattr(result.bodies, name), dtype=np.float64) for name in SCALAR_FACTS
+        }
         self._vectors = {name: np.asarray(getattr(result.bodies, name), dtype=np.float64) for name in VECTORS}
         self.mass: NDArray[np.float64] = self._scalars["mass_kg"]
         self._columns = {name: column.tolist() for name, column in self._scalars.items()}
