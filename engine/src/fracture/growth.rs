@@ -1,0 +1,669 @@
+//! The growth of a crack tree, event by event.
+//!
+//! Every tip runs at the same speed, so one number, the growth s [m], is the clock of all. A tip leaves a trace
+//! and stops where it comes to a trace that is older at that place: a branching motorcycle graph (Eppstein &
+//! Erickson 1999). Straight runs are laid out ahead, at most one grid cell long; when one is laid out, it is
+//! checked once against all runs in its cells, and whoever would come second gets a *meeting* in the event queue.
+//! A meeting counts only if both have really come that far when its time has come.
+//!
+//! Ties go to the tip with the lower number, and each pair is decided once, so the outcome is the same everywhere.
+
+use core::cmp::Ordering;
+use std::collections::{BinaryHeap, VecDeque};
+
+use glam::DVec2;
+
+use super::run::{Grid, NONE, Run};
+use super::settings::{Forking, Guide, Order, Settings};
+use crate::geometry::Polygon;
+use crate::random;
+
+/// Two places nearer than this share of the pane's extent are one. Far above rounding, far below any piece.
+const RESOLUTION: f64 = 1e-10;
+/// Most cells of the grid.
+const MOST_CELLS: f64 = 4e6;
+/// Tips that are asked whether they have room, at one fork.
+const CANDIDATES: usize = 4;
+
+/// One place of a trace: a vertex, and how far along it is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stop {
+    pub trace: u32,
+    pub at: f64,
+    pub vertex: u32,
+}
+
+/// All that growing leaves behind.
+#[derive(Debug)]
+pub(super) struct Traces {
+    pub vertices: Vec<DVec2>,
+    /// Vertices on each trace, in no order. Border edges are the first traces.
+    pub stops: Vec<Stop>,
+    pub runs: Vec<Run>,
+    pub tips: Vec<Tip>,
+    /// How many traces are edges of the border.
+    pub borders: usize,
+    /// Places nearer than this are one [m].
+    pub resolution: f64,
+}
+
+/// The end of a crack, and after its time the crack itself.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tip {
+    /// The run being cut, or the last one.
+    run: u32,
+    /// The run it started from.
+    pub parent: u32,
+    /// The trace that stopped it; `NONE` while it runs, where it forked, and where it just ended.
+    pub stopped_by: u32,
+    tree: u32,
+    depth: u16,
+    kind: Kind,
+    running: bool,
+    draws: u32,
+    /// Growth at which it may next turn.
+    next_turn: f64,
+    next_ring: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Border,
+    Branch,
+    /// Runs across from one crack to the next; neither forks nor turns.
+    Ring,
+}
+
+/// What grows from one nucleus.
+struct Tree {
+    origin: DVec2,
+    start: f64,
+    /// Tips in the order in which they fork.
+    waiting: VecDeque<u32>,
+    running: u32,
+    most: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Happening {
+    Start { nucleus: u32 },
+    /// A run comes to its planned end.
+    End { run: u32 },
+    /// A run comes to another one.
+    Meet { run: u32, other: u32 },
+    Fork { tree: u32 },
+    Ring { sprout: u32 },
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Event {
+    time: f64,
+    order: u32,
+    what: Happening,
+}
+
+impl PartialEq for Event {
+    fn eq(&self, other: &Self) -> bool {
+        self.order == other.order
+    }
+}
+impl Eq for Event {}
+impl PartialOrd for Event {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Event {
+    /// The earliest is the greatest, as the queue wants it.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.time.total_cmp(&self.time).then(other.order.cmp(&self.order))
+    }
+}
+
+/// A place on a run where a ring is to start.
+#[derive(Debug, Clone, Copy)]
+struct Sprout {
+    run: u32,
+    at: f64,
+    angle: f64,
+}
+
+pub(super) struct Growth<'a> {
+    settings: &'a Settings,
+    done: Traces,
+    trees: Vec<Tree>,
+    sprouts: Vec<Sprout>,
+    grid: Grid,
+    queue: BinaryHeap<Event>,
+    order: u32,
+    /// For each run, the last one it was checked against.
+    checked: Vec<u32>,
+    strongest_stress: f64,
+}
+
+impl<'a> Growth<'a> {
+    /// Lays out the border and plants the nuclei. The outline is simple and the settings are valid.
+    pub fn new(outline: &Polygon, settings: &'a Settings) -> Self {
+        let (low, high) = bounds(outline.points());
+        let extent = (high - low).max_element();
+        let cell = cell_size(outline, settings, extent);
+        let strongest_stress = match &settings.guide {
+            Guide::Stress { field, .. } => field.strongest(),
+            _ => 0.0,
+        };
+        let mut growth = Self {
+            settings,
+            done: Traces {
+                vertices: Vec::new(),
+                stops: Vec::new(),
+                runs: Vec::new(),
+                tips: Vec::new(),
+                borders: 0,
+                resolution: RESOLUTION * extent,
+            },
+            trees: Vec::with_capacity(settings.nuclei.len()),
+            sprouts: Vec::new(),
+            grid: Grid::new(low, high, cell),
+            queue: BinaryHeap::new(),
+            order: 0,
+            checked: Vec::new(),
+            strongest_stress,
+        };
+        for ring in outline.rings() {
+            growth.lay_border(ring);
+        }
+        growth.done.borders = growth.done.tips.len();
+        for (index, nucleus) in settings.nuclei.iter().enumerate() {
+            growth.trees.push(Tree {
+                origin: nucleus.position,
+                start: nucleus.start,
+                waiting: VecDeque::new(),
+                running: 0,
+                most: 0,
+            });
+            growth.schedule(nucleus.start, Happening::Start { nucleus: index as u32 });
+        }
+        growth
+    }
+
+    /// Grows until every tip has stopped.
+    pub fn finish(mut self) -> Traces {
+        while let Some(Event { time, what, .. }) = self.queue.pop() {
+            match what {
+                Happening::Start { nucleus } => self.plant(nucleus, time),
+                Happening::End { run } => self.end(run, time),
+                Happening::Meet { run, other } => self.stop(run, other, time),
+                Happening::Fork { tree } => self.fork_one(tree, time),
+                Happening::Ring { sprout } => self.sprout(self.sprouts[sprout as usize], time),
+            }
+        }
+        self.done
+    }
+
+    fn schedule(&mut self, time: f64, what: Happening) {
+        self.queue.push(Event { time, order: self.order, what });
+        self.order += 1;
+    }
+
+    fn vertex(&mut self, position: DVec2) -> u32 {
+        self.done.vertices.push(position);
+        (self.done.vertices.len() - 1) as u32
+    }
+
+    fn mark(&mut self, trace: u32, at: f64, vertex: u32) {
+        self.done.stops.push(Stop { trace, at, vertex });
+    }
+
+    fn lay_border(&mut self, ring: &[DVec2]) {
+        let first = self.done.vertices.len();
+        self.done.vertices.extend_from_slice(ring);
+        for (i, &a) in ring.iter().enumerate() {
+            let j = (i + 1) % ring.len();
+            let b = ring[j];
+            let length = a.distance(b);
+            let (trace, number) = (self.done.tips.len() as u32, self.done.runs.len() as u32);
+            let run = Run {
+                origin: a,
+                direction: (b - a) / length,
+                from: 0.0,
+                to: length,
+                trace,
+                previous: NONE,
+                vertex: (first + i) as u32,
+                border: true,
+            };
+            self.push_run(run);
+            self.done.tips.push(Tip {
+                run: number,
+                parent: NONE,
+                stopped_by: NONE,
+                tree: NONE,
+                depth: 0,
+                kind: Kind::Border,
+                running: false,
+                draws: 0,
+                next_turn: f64::INFINITY,
+                next_ring: NONE,
+            });
+            self.mark(trace, 0.0, (first + i) as u32);
+            self.mark(trace, length, (first + j) as u32);
+            self.put_in_pieces(number);
+        }
+    }
+
+    /// Puts a run of any length into the grid.
+    fn put_in_pieces(&mut self, number: u32) {
+        let run = self.done.runs[number as usize];
+        let mut last = usize::MAX;
+        let mut at = run.from;
+        while at < run.to {
+            let next = (at + self.grid.cell).min(run.to);
+            for cell in self.grid.cells(run.point(at), run.point(next), self.done.resolution) {
+                if cell != last {
+                    self.grid.put(cell, number);
+                    last = cell;
+                }
+            }
+            at = next;
+        }
+    }
+
+    fn push_run(&mut self, run: Run) -> u32 {
+        self.done.runs.push(run);
+        self.checked.push(NONE);
+        (self.done.runs.len() - 1) as u32
+    }
+
+    fn plant(&mut self, nucleus: u32, now: f64) {
+        let planted = &self.settings.nuclei[nucleus as usize];
+        let vertex = self.vertex(planted.position);
+        for &angle in &planted.arms {
+            let tip = self.new_tip(nucleus, 0, NONE, Kind::Branch, now);
+            self.start(tip, planted.position, direction(angle), vertex, NONE, now);
+            self.trees[nucleus as usize].waiting.push_back(tip);
+        }
+        self.tick(nucleus, 0, now);
+    }
+
+    fn new_tip(&mut self, tree: u32, depth: u16, parent: u32, kind: Kind, now: f64) -> u32 {
+        let next_turn = if kind == Kind::Branch && self.settings.turns() {
+            now + self.settings.wiggle.spacing
+        } else {
+            f64::INFINITY
+        };
+        let number = self.done.tips.len() as u32;
+        let next_ring = if parent == NONE { 0 } else { self.done.tips[self.trace(parent)].next_ring };
+        self.done.tips.push(Tip {
+            run: NONE,
+            parent,
+            stopped_by: NONE,
+            tree,
+            depth,
+            kind,
+            running: true,
+            draws: 0,
+            next_turn,
+            next_ring,
+        });
+        if kind == Kind::Branch {
+            let tree = &mut self.trees[tree as usize];
+            tree.running += 1;
+            tree.most = tree.most.max(tree.running);
+        }
+        number
+    }
+
+    fn trace(&self, run: u32) -> usize {
+        self.done.runs[run as usize].trace as usize
+    }
+
+    /// A tip starts, turns or goes on: marks where it comes from, and lays out its next run.
+    fn start(&mut self, tip: u32, origin: DVec2, direction: DVec2, vertex: u32, previous: u32, now: f64) {
+        if vertex != NONE {
+            self.mark(tip, now, vertex);
+        }
+        let state = &mut self.done.tips[tip as usize];
+        let limit = if state.kind == Kind::Branch { self.settings.reach } else { None };
+        let last = limit.map_or(f64::INFINITY, |reach| self.trees[state.tree as usize].start + reach);
+        let to = (now + self.grid.cell).min(state.next_turn).min(last);
+        let number = self.done.runs.len() as u32;
+        state.run = number;
+        self.push_run(Run { origin, direction, from: now, to, trace: tip, previous, vertex, border: false });
+        self.lay_out(number);
+        self.schedule(to, Happening::End { run: number });
+        if self.settings.rings.is_some() {
+            self.seed_rings(number);
+        }
+    }
+
+    /// Puts a new run into the grid and finds whom it may meet.
+    fn lay_out(&mut self, number: u32) {
+        let run = self.done.runs[number as usize];
+        let slack = self.done.resolution;
+        for cell in self.grid.cells(run.origin, run.point(run.to), slack) {
+            let mut next = self.grid.first(cell);
+            while let Some((index, after)) = self.grid.entry(next) {
+                next = after;
+                if self.checked[index as usize] != number {
+                    self.checked[index as usize] = number;
+                    self.compare(number, &run, index);
+                }
+            }
+            self.grid.put(cell, number);
+        }
+    }
+
+    /// Whoever of two runs comes second to where they cross is told so.
+    #[inline]
+    fn compare(&mut self, number: u32, run: &Run, index: u32) {
+        let other = &self.done.runs[index as usize];
+        if run.adjoins(number, other, index) {
+            return;
+        }
+        let Some(meeting) = run.meet(other, self.done.resolution) else { return };
+        let (own, theirs) = (meeting.first, other.time(meeting.second));
+        if (theirs, other.trace) <= (own, run.trace) {
+            self.schedule(own, Happening::Meet { run: number, other: index });
+        } else if self.done.tips[other.trace as usize].run == index {
+            self.schedule(theirs, Happening::Meet { run: index, other: number });
+        }
+    }
+
+    /// A run comes to its planned end: the tip goes on, turns, or has reached as far as it may.
+    fn end(&mut self, number: u32, now: f64) {
+        let run = self.done.runs[number as usize];
+        let tip = self.done.tips[run.trace as usize];
+        if !tip.running || tip.run != number {
+            return;
+        }
+        let origin = run.point(now);
+        let reached = self.settings.reach.is_some_and(|reach| {
+            tip.kind == Kind::Branch && now >= self.trees[tip.tree as usize].start + reach
+        });
+        if reached {
+            let vertex = self.vertex(origin);
+            self.mark(run.trace, now, vertex);
+            self.halt(run.trace, NONE);
+            return;
+        }
+        let turn = if now >= tip.next_turn { self.turn(run.trace, &run, origin) } else { 0.0 };
+        if turn == 0.0 {
+            self.start(run.trace, origin, run.direction, NONE, number, now);
+        } else {
+            let vertex = self.vertex(origin);
+            let turned = rotated(run.direction, turn);
+            self.start(run.trace, origin, turned, vertex, number, now);
+        }
+    }
+
+    /// How far a tip turns where it may [rad]: at random, and as it is drawn.
+    fn turn(&mut self, trace: u32, run: &Run, origin: DVec2) -> f64 {
+        let wiggle = self.settings.wiggle;
+        self.done.tips[trace as usize].next_turn += wiggle.spacing;
+        let mut turn = 0.0;
+        if wiggle.probability > 0.0 && self.draw(trace) < wiggle.probability {
+            turn += wiggle.variance * (self.draw(trace) - 0.5);
+        }
+        let tree = self.done.tips[trace as usize].tree;
+        if let Some((target, length)) = self.target(tree, run.direction, origin) {
+            let off = libm::atan2(run.direction.perp_dot(target), run.direction.dot(target));
+            turn += off * (1.0 - libm::exp(-wiggle.spacing / length));
+        }
+        turn
+    }
+
+    /// Where the guide draws a tip: a unit vector, and over which length.
+    fn target(&self, tree: u32, heading: DVec2, at: DVec2) -> Option<(DVec2, f64)> {
+        let nearer = |angle: f64| {
+            let along = direction(angle);
+            if along.dot(heading) < 0.0 { -along } else { along }
+        };
+        match &self.settings.guide {
+            Guide::None => None,
+            Guide::Outward { length } => {
+                let outward = (at - self.trees[tree as usize].origin).try_normalize()?;
+                Some((outward, *length))
+            }
+            Guide::Direction { angle, length } => Some((nearer(*angle), *length)),
+            Guide::Stress { field, length } => {
+                let (angle, strength) = field.crack_direction(at);
+                (strength > 0.0).then(|| (nearer(angle), length * self.strongest_stress / strength))
+            }
+        }
+    }
+
+    fn draw(&mut self, trace: u32) -> f64 {
+        let tip = &mut self.done.tips[trace as usize];
+        tip.draws += 1;
+        let stream = u64::from(trace) - self.done.borders as u64;
+        random::unit(self.settings.seed, stream, u64::from(tip.draws))
+    }
+
+    /// A tip has come to another trace: it stops there, if both have come that far.
+    fn stop(&mut self, number: u32, other: u32, now: f64) {
+        let (run, hit) = (self.done.runs[number as usize], self.done.runs[other as usize]);
+        let tip = &self.done.tips[run.trace as usize];
+        if !tip.running || tip.run != number {
+            return;
+        }
+        let slack = self.done.resolution;
+        let Some(meeting) = run.meet(&hit, slack) else { return };
+        let place = meeting.second.min(hit.to);
+        if meeting.second > hit.to + slack {
+            return;
+        }
+        let vertex = if run.vertex != NONE && now - run.from < slack {
+            run.vertex
+        } else {
+            let vertex = self.vertex(hit.point(meeting.second));
+            self.mark(run.trace, now, vertex);
+            vertex
+        };
+        self.mark(hit.trace, place, vertex);
+        self.done.runs[number as usize].to = now.max(run.from);
+        self.halt(run.trace, hit.trace);
+    }
+
+    fn halt(&mut self, trace: u32, stopped_by: u32) {
+        let tip = &mut self.done.tips[trace as usize];
+        tip.running = false;
+        tip.stopped_by = stopped_by;
+        if tip.kind == Kind::Branch {
+            self.trees[tip.tree as usize].running -= 1;
+        }
+    }
+
+    /// Sets the time of a tree's next fork.
+    fn tick(&mut self, tree: u32, depth: u16, now: f64) {
+        let state = &self.trees[tree as usize];
+        if state.running == 0 {
+            return;
+        }
+        let slower = match self.settings.forking {
+            Forking::Literal(_) => 1.0,
+            Forking::Driven { .. } => f64::from(state.most) / f64::from(state.running),
+        };
+        let deeper = libm::pow(self.settings.depth.critical_length, f64::from(depth));
+        let interval = self.settings.critical_length * slower * deeper;
+        self.schedule(now + interval, Happening::Fork { tree });
+    }
+
+    fn fork_one(&mut self, tree: u32, now: f64) {
+        let mut depth = 0;
+        for _candidate in 0..CANDIDATES {
+            let Some(trace) = self.next_candidate(tree) else { break };
+            let Some(branches) = self.branches(trace, now) else {
+                self.trees[tree as usize].waiting.push_back(trace);
+                continue;
+            };
+            depth = self.done.tips[trace as usize].depth + 1;
+            self.fork(trace, branches, now);
+            break;
+        }
+        self.tick(tree, depth, now);
+    }
+
+    /// The tip of a tree whose turn it is to fork.
+    fn next_candidate(&mut self, tree: u32) -> Option<u32> {
+        let random = matches!(self.settings.forking, Forking::Literal(Order::Random));
+        let (tips, waiting) = (&self.done.tips, &mut self.trees[tree as usize].waiting);
+        if random {
+            waiting.retain(|&tip| tips[tip as usize].running);
+            let last = *waiting.back()?;
+            let pick = (self.draw(last) * self.trees[tree as usize].waiting.len() as f64) as usize;
+            return self.trees[tree as usize].waiting.remove(pick);
+        }
+        loop {
+            let trace = waiting.pop_front()?;
+            if tips[trace as usize].running {
+                return Some(trace);
+            }
+        }
+    }
+
+    /// Directions of a tip's two branches, left and right, if it may fork here.
+    fn branches(&mut self, trace: u32, now: f64) -> Option<[DVec2; 2]> {
+        let settings = self.settings;
+        let tip = self.done.tips[trace as usize];
+        let angle = settings.fork_angle * libm::pow(settings.depth.fork_angle, f64::from(tip.depth));
+        let heading = self.done.runs[tip.run as usize].direction;
+        let branches = [0.5, -0.5].map(|side| {
+            let varied = angle + settings.fork_variance * (self.draw(trace) - 0.5);
+            rotated(heading, side * varied)
+        });
+        match settings.forking {
+            Forking::Driven { room } if room > 0.0 => {
+                branches.iter().all(|&branch| self.has_room(tip.run, branch, room, now)).then_some(branches)
+            }
+            _ => Some(branches),
+        }
+    }
+
+    /// Whether a branch could run for `room` [m] from where a run is now, past the traces that are there.
+    fn has_room(&self, number: u32, heading: DVec2, room: f64, now: f64) -> bool {
+        let from = self.done.runs[number as usize].point(now);
+        let mut done = 0.0;
+        while done < room {
+            let length = self.grid.cell.min(room - done);
+            let probe = Run {
+                origin: from + heading * done,
+                direction: heading,
+                from: done,
+                to: done + length,
+                trace: NONE,
+                previous: number,
+                vertex: NONE,
+                border: false,
+            };
+            let slack = self.done.resolution;
+            for cell in self.grid.cells(probe.origin, probe.point(probe.to), slack) {
+                let blocked = self.grid.list(cell).any(|index| {
+                    let other = &self.done.runs[index as usize];
+                    index != number
+                        && probe.meet(other, slack).is_some_and(|m| {
+                            m.first > slack && other.time(m.second) <= now && m.second <= other.to + slack
+                        })
+                });
+                if blocked {
+                    return false;
+                }
+            }
+            done += length;
+        }
+        true
+    }
+
+    /// Ends a tip where it is, and starts two from there.
+    fn fork(&mut self, trace: u32, branches: [DVec2; 2], now: f64) {
+        let tip = self.done.tips[trace as usize];
+        let run = self.done.runs[tip.run as usize];
+        let origin = run.point(now);
+        let vertex = self.vertex(origin);
+        self.mark(trace, now, vertex);
+        self.done.runs[tip.run as usize].to = now;
+        self.halt(trace, NONE);
+        // A run that has only just begun touches what its predecessor touches.
+        let just_begun = now - run.from < self.done.resolution && run.previous != NONE;
+        let parent = if just_begun { run.previous } else { tip.run };
+        let mut children = branches.map(|heading| {
+            let child = self.new_tip(tip.tree, tip.depth + 1, tip.run, Kind::Branch, now);
+            self.start(child, origin, heading, vertex, parent, now);
+            child
+        });
+        if self.draw(trace) < 0.5 {
+            children.reverse();
+        }
+        self.trees[tip.tree as usize].waiting.extend(children);
+    }
+
+    /// Plans the rings that start from a new run.
+    fn seed_rings(&mut self, number: u32) {
+        let (Some(rings), run) = (self.settings.rings, self.done.runs[number as usize]) else { return };
+        let tip = self.done.tips[run.trace as usize];
+        if tip.kind != Kind::Branch {
+            return;
+        }
+        let start = self.trees[tip.tree as usize].start;
+        let mut ring = tip.next_ring;
+        let margin = 16.0 * self.done.resolution;
+        loop {
+            let radius = ring_radius(rings.spacing, rings.growth, ring);
+            let at = start + radius * (1.0 + 0.1 * (self.draw(run.trace) - 0.5));
+            if radius + start > run.to {
+                break;
+            }
+            ring += 1;
+            if at > run.from + margin && at < run.to - margin && self.draw(run.trace) < rings.share {
+                let outward = (run.point(at) - self.trees[tip.tree as usize].origin).to_angle();
+                let angle = outward + core::f64::consts::FRAC_PI_2 + 0.5 * (self.draw(run.trace) - 0.5);
+                let gap = ring_radius(rings.spacing, rings.growth, ring) - radius;
+                self.schedule(at + gap, Happening::Ring { sprout: self.sprouts.len() as u32 });
+                self.sprouts.push(Sprout { run: number, at, angle });
+            }
+        }
+        self.done.tips[run.trace as usize].next_ring = ring;
+    }
+
+    fn sprout(&mut self, sprout: Sprout, now: f64) {
+        let run = self.done.runs[sprout.run as usize];
+        if sprout.at > run.to - 16.0 * self.done.resolution {
+            return;
+        }
+        let origin = run.point(sprout.at);
+        let vertex = self.vertex(origin);
+        self.mark(run.trace, sprout.at, vertex);
+        let tree = self.done.tips[run.trace as usize].tree;
+        let tip = self.new_tip(tree, 0, sprout.run, Kind::Ring, now);
+        self.start(tip, origin, direction(sprout.angle), vertex, sprout.run, now);
+    }
+}
+
+fn ring_radius(spacing: f64, growth: f64, ring: u32) -> f64 {
+    if growth == 1.0 {
+        return spacing * f64::from(ring + 1);
+    }
+    spacing * (libm::pow(growth, f64::from(ring + 1)) - 1.0) / (growth - 1.0)
+}
+
+fn direction(angle: f64) -> DVec2 {
+    let (sin, cos) = libm::sincos(angle);
+    DVec2::new(cos, sin)
+}
+
+fn rotated(heading: DVec2, angle: f64) -> DVec2 {
+    heading.rotate(direction(angle)).normalize()
+}
+
+fn bounds(points: &[DVec2]) -> (DVec2, DVec2) {
+    points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
+}
+
+/// Edge of the grid's cells [m]: about the distance between neighbouring cracks.
+fn cell_size(outline: &Polygon, settings: &Settings, extent: f64) -> f64 {
+    let count = settings.nuclei.len() as f64;
+    let share = libm::sqrt(outline.area() / count);
+    let arms: usize = settings.nuclei.iter().map(|n| n.arms.len()).sum();
+    let pieces = arms as f64 + count * share / settings.critical_length;
+    let spacing = libm::sqrt(outline.area() / pieces);
+    spacing.clamp(extent / libm::sqrt(MOST_CELLS), extent / 8.0)
+}

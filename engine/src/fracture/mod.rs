@@ -1,0 +1,22 @@
+//! How a brittle pane breaks: cracks that run, fork, turn and stop, and the fragments they leave (thesis 5.4).
+//!
+//! - [`Settings`]: how cracks run; [`Nucleus`]: where they start;
+//! - [`Pattern`]: the cracks and the fragments, from [`Pattern::grow`];
+//! - [`CrackClock`]: from growth to time (5.6);
+//! - [`outline`]: whether an outline bounds a pane.
+//!
+//! The growth is an exact simulation of events, not of steps on a grid: it has no resolution of its own, and the
+//! same settings give the same pattern everywhere. Fragments are the faces of the planar graph of the cracks: their
+//! areas add up to the pane's, they do not overlap, and every crack side belongs to exactly two of them.
+
+mod clock;
+mod graph;
+mod growth;
+pub mod outline;
+mod pattern;
+mod run;
+mod settings;
+
+pub use clock::CrackClock;
+pub use pattern::{Crack, Fragment, Pattern, Stopper};
+pub use settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, StressField, Wiggle};
