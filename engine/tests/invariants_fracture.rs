@@ -52,7 +52,10 @@ fn any_outline(draws: &mut Draws) -> Polygon {
         0 => vec![(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)],
         1 => vec![(0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.3, 0.4), (0.3, 1.0), (0.0, 1.0)],
         2 => vec![(0.0, 0.0), (1.0, 0.1), (0.4, 1.0)],
-        3 => (0..40).map(|i| f64::from(i) * PI / 20.0).map(|a| (0.5 + 0.5 * a.cos(), 0.5 + 0.5 * a.sin())).collect(),
+        3 => (0..40)
+            .map(|i| f64::from(i) * PI / 20.0)
+            .map(|a| (0.5 + 0.5 * a.cos(), 0.5 + 0.5 * a.sin()))
+            .collect(),
         // A star with deep reflex corners.
         _ => (0..10)
             .map(|i| (f64::from(i) * PI / 5.0, if i % 2 == 0 { 0.5 } else { 0.22 }))
@@ -137,6 +140,7 @@ fn any_settings(draws: &mut Draws, pane: &Polygon) -> Settings {
         } else {
             Depth::default()
         },
+        fronts: Vec::new(),
         reach: draws.chance(0.2).then(|| size * draws.between(0.05, 0.6)),
         seed: draws.next.wrapping_mul(draws.seed),
     }
@@ -144,7 +148,8 @@ fn any_settings(draws: &mut Draws, pane: &Polygon) -> Settings {
 
 fn any_field(draws: &mut Draws, pane: &Polygon) -> StressField {
     let size = pane.area().sqrt();
-    let samples = (0..16).map(|_| [draws.between(-1e7, 1e7), draws.between(-1e7, 1e7), draws.between(-1e7, 1e7)]);
+    let samples =
+        (0..16).map(|_| [draws.between(-1e7, 1e7), draws.between(-1e7, 1e7), draws.between(-1e7, 1e7)]);
     StressField {
         samples: samples.collect(),
         origin: pane.points()[0],
@@ -252,7 +257,8 @@ fn the_same_settings_give_the_same_bits() {
         let settings = any_settings(&mut draws, &pane);
         let grow = || Pattern::grow(&pane, &settings).unwrap();
         let (one, two) = (grow(), grow());
-        let bits = |p: &Pattern| p.vertices().iter().map(|v| v.to_array().map(f64::to_bits)).collect::<Vec<_>>();
+        let bits =
+            |p: &Pattern| p.vertices().iter().map(|v| v.to_array().map(f64::to_bits)).collect::<Vec<_>>();
         assert_eq!(bits(&one), bits(&two));
         assert_eq!(sides(&one), sides(&two));
     }

@@ -29,6 +29,10 @@ impl CrackClock {
     /// Speed of a crack that has grown by `growth` [m] [m/s] (5.6).
     pub fn speed(&self, growth: f64) -> f64 {
         let length = self.critical_length * (1.0 + HEAD_START) + growth;
-        if length == 0.0 { self.terminal_speed } else { self.terminal_speed * (1.0 - self.critical_length / length) }
+        if length == 0.0 {
+            self.terminal_speed
+        } else {
+            self.terminal_speed * (1.0 - self.critical_length / length)
+        }
     }
 }

@@ -11,6 +11,7 @@ use glam::DVec2;
 use super::growth::{Stop, Traces};
 use super::outline::turn;
 use super::run::NONE;
+use super::settings::Settings;
 
 /// Faces as rings of vertices.
 #[derive(Debug, Default)]
@@ -59,8 +60,8 @@ struct Loop {
 }
 
 /// The faces that traces bound, in a fixed order.
-pub(super) fn faces(traces: &mut Traces) -> Faces {
-    let graph = Graph::new(traces);
+pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
+    let graph = Graph::new(traces, settings);
     let (loops, loop_of) = graph.loops();
     let holes = graph.holes(&loops, &loop_of);
     let mut faces = Faces::default();
@@ -81,7 +82,7 @@ pub(super) fn faces(traces: &mut Traces) -> Faces {
 }
 
 impl Graph {
-    fn new(traces: &mut Traces) -> Self {
+    fn new(traces: &mut Traces, settings: &Settings) -> Self {
         let stops = sorted_stops(&traces.stops, traces.tips.len());
         let merged = merge_close(&stops, traces.vertices.len(), traces.resolution);
         let mut edges = Vec::with_capacity(stops.len());
@@ -93,7 +94,8 @@ impl Graph {
             }
             let on_border = (pair[0].trace as usize) < traces.borders;
             borders += usize::from(on_border);
-            edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { pair[1].at } });
+            let cut = || pair[1].at + settings.delay(traces.vertices[to as usize]);
+            edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { cut() } });
         }
         let mut graph = Self {
             vertices: core::mem::take(&mut traces.vertices),
@@ -292,9 +294,7 @@ impl Graph {
 /// Order of two points counter-clockwise round a centre, from the direction +x. Exact.
 fn around(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
     let lower = |p: DVec2| p.y < centre.y || (p.y == centre.y && p.x < centre.x);
-    lower(a).cmp(&lower(b)).then_with(|| {
-        0.0.partial_cmp(&turn(centre, a, b)).expect("vertices are finite")
-    })
+    lower(a).cmp(&lower(b)).then_with(|| 0.0.partial_cmp(&turn(centre, a, b)).expect("vertices are finite"))
 }
 
 /// Stops by trace, and along each trace by place.

@@ -8,20 +8,22 @@
 //!
 //! Ties go to the tip with the lower number, and each pair is decided once, so the outcome is the same everywhere.
 
-use core::cmp::Ordering;
-use std::collections::{BinaryHeap, VecDeque};
+use std::collections::VecDeque;
 
 use glam::DVec2;
 
-use super::run::{Grid, NONE, Run};
+use super::calendar::Calendar;
+use super::run::{BORDER, Grid, NONE, Run};
 use super::settings::{Forking, Guide, Order, Settings};
 use crate::geometry::Polygon;
 use crate::random;
 
 /// Two places nearer than this share of the pane's extent are one. Far above rounding, far below any piece.
 const RESOLUTION: f64 = 1e-10;
-/// Most cells of the grid.
-const MOST_CELLS: f64 = 4e6;
+/// Cells along the pane's longer side at most; a sketch tells places apart to a ten-thousandth of a cell then.
+const MOST_CELLS: f64 = 2e3;
+/// The widest angle a fork grows to with depth [rad].
+const WIDEST_FORK: f64 = 0.95 * core::f64::consts::PI;
 /// Tips that are asked whether they have room, at one fork.
 const CANDIDATES: usize = 4;
 
@@ -86,38 +88,24 @@ struct Tree {
 
 #[derive(Debug, Clone, Copy)]
 enum Happening {
-    Start { nucleus: u32 },
+    Start {
+        nucleus: u32,
+    },
     /// A run comes to its planned end.
-    End { run: u32 },
+    End {
+        run: u32,
+    },
     /// A run comes to another one.
-    Meet { run: u32, other: u32 },
-    Fork { tree: u32 },
-    Ring { sprout: u32 },
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Event {
-    time: f64,
-    order: u32,
-    what: Happening,
-}
-
-impl PartialEq for Event {
-    fn eq(&self, other: &Self) -> bool {
-        self.order == other.order
-    }
-}
-impl Eq for Event {}
-impl PartialOrd for Event {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Event {
-    /// The earliest is the greatest, as the queue wants it.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.time.total_cmp(&self.time).then(other.order.cmp(&self.order))
-    }
+    Meet {
+        run: u32,
+        other: u32,
+    },
+    Fork {
+        tree: u32,
+    },
+    Ring {
+        sprout: u32,
+    },
 }
 
 /// A place on a run where a ring is to start.
@@ -134,11 +122,10 @@ pub(super) struct Growth<'a> {
     trees: Vec<Tree>,
     sprouts: Vec<Sprout>,
     grid: Grid,
-    queue: BinaryHeap<Event>,
-    order: u32,
-    /// For each run, the last one it was checked against.
-    checked: Vec<u32>,
+    queue: Calendar<Happening>,
     strongest_stress: f64,
+    /// Runs that a new one may meet in a cell: kept for its memory.
+    near: Vec<u32>,
 }
 
 impl<'a> Growth<'a> {
@@ -164,10 +151,9 @@ impl<'a> Growth<'a> {
             trees: Vec::with_capacity(settings.nuclei.len()),
             sprouts: Vec::new(),
             grid: Grid::new(low, high, cell),
-            queue: BinaryHeap::new(),
-            order: 0,
-            checked: Vec::new(),
+            queue: Calendar::new(cell),
             strongest_stress,
+            near: Vec::new(),
         };
         for ring in outline.rings() {
             growth.lay_border(ring);
@@ -181,15 +167,16 @@ impl<'a> Growth<'a> {
                 running: 0,
                 most: 0,
             });
-            growth.schedule(nucleus.start, Happening::Start { nucleus: index as u32 });
+            growth.queue.schedule(nucleus.start, Happening::Start { nucleus: index as u32 });
         }
         growth
     }
 
     /// Grows until every tip has stopped.
     pub fn finish(mut self) -> Traces {
-        while let Some(Event { time, what, .. }) = self.queue.pop() {
-            match what {
+        while let Some(event) = self.queue.pop() {
+            let time = event.time;
+            match event.what {
                 Happening::Start { nucleus } => self.plant(nucleus, time),
                 Happening::End { run } => self.end(run, time),
                 Happening::Meet { run, other } => self.stop(run, other, time),
@@ -198,11 +185,6 @@ impl<'a> Growth<'a> {
             }
         }
         self.done
-    }
-
-    fn schedule(&mut self, time: f64, what: Happening) {
-        self.queue.push(Event { time, order: self.order, what });
-        self.order += 1;
     }
 
     fn vertex(&mut self, position: DVec2) -> u32 {
@@ -230,7 +212,7 @@ impl<'a> Growth<'a> {
                 trace,
                 previous: NONE,
                 vertex: (first + i) as u32,
-                border: true,
+                mark: BORDER,
             };
             self.push_run(run);
             self.done.tips.push(Tip {
@@ -254,15 +236,12 @@ impl<'a> Growth<'a> {
     /// Puts a run of any length into the grid.
     fn put_in_pieces(&mut self, number: u32) {
         let run = self.done.runs[number as usize];
-        let mut last = usize::MAX;
         let mut at = run.from;
         while at < run.to {
             let next = (at + self.grid.cell).min(run.to);
-            for cell in self.grid.cells(run.point(at), run.point(next), self.done.resolution) {
-                if cell != last {
-                    self.grid.put(cell, number);
-                    last = cell;
-                }
+            let sketch = self.grid.sketch(run.point(at), run.point(next));
+            for cell in self.grid.cells(&sketch) {
+                self.grid.put(cell, sketch, number);
             }
             at = next;
         }
@@ -270,7 +249,6 @@ impl<'a> Growth<'a> {
 
     fn push_run(&mut self, run: Run) -> u32 {
         self.done.runs.push(run);
-        self.checked.push(NONE);
         (self.done.runs.len() - 1) as u32
     }
 
@@ -328,9 +306,9 @@ impl<'a> Growth<'a> {
         let to = (now + self.grid.cell).min(state.next_turn).min(last);
         let number = self.done.runs.len() as u32;
         state.run = number;
-        self.push_run(Run { origin, direction, from: now, to, trace: tip, previous, vertex, border: false });
+        self.push_run(Run { origin, direction, from: now, to, trace: tip, previous, vertex, mark: 0 });
         self.lay_out(number);
-        self.schedule(to, Happening::End { run: number });
+        self.queue.schedule(to, Happening::End { run: number });
         if self.settings.rings.is_some() {
             self.seed_rings(number);
         }
@@ -339,17 +317,17 @@ impl<'a> Growth<'a> {
     /// Puts a new run into the grid and finds whom it may meet.
     fn lay_out(&mut self, number: u32) {
         let run = self.done.runs[number as usize];
-        let slack = self.done.resolution;
-        for cell in self.grid.cells(run.origin, run.point(run.to), slack) {
-            let mut next = self.grid.first(cell);
-            while let Some((index, after)) = self.grid.entry(next) {
-                next = after;
-                if self.checked[index as usize] != number {
-                    self.checked[index as usize] = number;
+        let sketch = self.grid.sketch(run.origin, run.point(run.to));
+        for cell in self.grid.cells(&sketch) {
+            self.near.clear();
+            self.near.extend(self.grid.near(cell, &sketch));
+            for near in 0..self.near.len() {
+                let index = self.near[near];
+                if self.done.runs[index as usize].note(number) {
                     self.compare(number, &run, index);
                 }
             }
-            self.grid.put(cell, number);
+            self.grid.put(cell, sketch, number);
         }
     }
 
@@ -363,9 +341,9 @@ impl<'a> Growth<'a> {
         let Some(meeting) = run.meet(other, self.done.resolution) else { return };
         let (own, theirs) = (meeting.first, other.time(meeting.second));
         if (theirs, other.trace) <= (own, run.trace) {
-            self.schedule(own, Happening::Meet { run: number, other: index });
+            self.queue.schedule(own, Happening::Meet { run: number, other: index });
         } else if self.done.tips[other.trace as usize].run == index {
-            self.schedule(theirs, Happening::Meet { run: index, other: number });
+            self.queue.schedule(theirs, Happening::Meet { run: index, other: number });
         }
     }
 
@@ -480,12 +458,13 @@ impl<'a> Growth<'a> {
             return;
         }
         let slower = match self.settings.forking {
+            Forking::Never => return,
             Forking::Literal(_) => 1.0,
             Forking::Driven { .. } => f64::from(state.most) / f64::from(state.running),
         };
-        let deeper = libm::pow(self.settings.depth.critical_length, f64::from(depth));
+        let deeper = deep(self.settings.depth.critical_length, depth);
         let interval = self.settings.critical_length * slower * deeper;
-        self.schedule(now + interval, Happening::Fork { tree });
+        self.queue.schedule(now + interval, Happening::Fork { tree });
     }
 
     fn fork_one(&mut self, tree: u32, now: f64) {
@@ -525,7 +504,7 @@ impl<'a> Growth<'a> {
     fn branches(&mut self, trace: u32, now: f64) -> Option<[DVec2; 2]> {
         let settings = self.settings;
         let tip = self.done.tips[trace as usize];
-        let angle = settings.fork_angle * libm::pow(settings.depth.fork_angle, f64::from(tip.depth));
+        let angle = (settings.fork_angle * deep(settings.depth.fork_angle, tip.depth)).min(WIDEST_FORK);
         let heading = self.done.runs[tip.run as usize].direction;
         let branches = [0.5, -0.5].map(|side| {
             let varied = angle + settings.fork_variance * (self.draw(trace) - 0.5);
@@ -553,11 +532,12 @@ impl<'a> Growth<'a> {
                 trace: NONE,
                 previous: number,
                 vertex: NONE,
-                border: false,
+                mark: 0,
             };
             let slack = self.done.resolution;
-            for cell in self.grid.cells(probe.origin, probe.point(probe.to), slack) {
-                let blocked = self.grid.list(cell).any(|index| {
+            let sketch = self.grid.sketch(probe.origin, probe.point(probe.to));
+            for cell in self.grid.cells(&sketch) {
+                let blocked = self.grid.near(cell, &sketch).any(|index| {
                     let other = &self.done.runs[index as usize];
                     index != number
                         && probe.meet(other, slack).is_some_and(|m| {
@@ -617,7 +597,7 @@ impl<'a> Growth<'a> {
                 let outward = (run.point(at) - self.trees[tip.tree as usize].origin).to_angle();
                 let angle = outward + core::f64::consts::FRAC_PI_2 + 0.5 * (self.draw(run.trace) - 0.5);
                 let gap = ring_radius(rings.spacing, rings.growth, ring) - radius;
-                self.schedule(at + gap, Happening::Ring { sprout: self.sprouts.len() as u32 });
+                self.queue.schedule(at + gap, Happening::Ring { sprout: self.sprouts.len() as u32 });
                 self.sprouts.push(Sprout { run: number, at, angle });
             }
         }
@@ -636,6 +616,11 @@ impl<'a> Growth<'a> {
         let tip = self.new_tip(tree, 0, sprout.run, Kind::Ring, now);
         self.start(tip, origin, direction(sprout.angle), vertex, sprout.run, now);
     }
+}
+
+/// A factor a fork, after `depth` forks: at most sixteen-fold either way, or a tree could fork without end.
+fn deep(factor: f64, depth: u16) -> f64 {
+    libm::pow(factor, f64::from(depth)).clamp(1.0 / 16.0, 16.0)
 }
 
 fn ring_radius(spacing: f64, growth: f64, ring: u32) -> f64 {
@@ -665,5 +650,5 @@ fn cell_size(outline: &Polygon, settings: &Settings, extent: f64) -> f64 {
     let arms: usize = settings.nuclei.iter().map(|n| n.arms.len()).sum();
     let pieces = arms as f64 + count * share / settings.critical_length;
     let spacing = libm::sqrt(outline.area() / pieces);
-    spacing.clamp(extent / libm::sqrt(MOST_CELLS), extent / 8.0)
+    spacing.clamp(extent / MOST_CELLS, extent / 8.0)
 }

@@ -1,6 +1,7 @@
 //! How a brittle pane breaks: cracks that run, fork, turn and stop, and the fragments they leave (thesis 5.4).
 //!
 //! - [`Settings`]: how cracks run; [`Nucleus`]: where they start;
+//! - [`Recipe`]: the same as an artist says it, for a kind of [`Glass`];
 //! - [`Pattern`]: the cracks and the fragments, from [`Pattern::grow`];
 //! - [`CrackClock`]: from growth to time (5.6);
 //! - [`outline`]: whether an outline bounds a pane.
@@ -9,7 +10,9 @@
 //! same settings give the same pattern everywhere. Fragments are the faces of the planar graph of the cracks: their
 //! areas add up to the pane's, they do not overlap, and every crack side belongs to exactly two of them.
 
+mod calendar;
 mod clock;
+mod glass;
 mod graph;
 mod growth;
 pub mod outline;
@@ -18,5 +21,6 @@ mod run;
 mod settings;
 
 pub use clock::CrackClock;
+pub use glass::{Fineness, Glass, Grown, Recipe, Shape};
 pub use pattern::{Crack, Fragment, Pattern, Stopper};
 pub use settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, StressField, Wiggle};

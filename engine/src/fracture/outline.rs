@@ -67,6 +67,15 @@ pub fn contains(polygon: &Polygon, point: DVec2) -> bool {
     inside
 }
 
+/// Distance from a point to the nearest side [m].
+pub fn clearance(polygon: &Polygon, point: DVec2) -> f64 {
+    let to_side = |(a, b): (DVec2, DVec2)| {
+        let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        point.distance(a + (b - a) * along)
+    };
+    polygon.sides().map(to_side).fold(f64::INFINITY, f64::min)
+}
+
 /// Twice the signed area of a triangle, with an exact sign: above 0 where it turns left.
 pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let coord = |p: DVec2| Coord { x: p.x, y: p.y };

@@ -65,8 +65,8 @@ impl Pattern {
         settings.validate()?;
         fits(outline, settings)?;
         let mut traces = Growth::new(outline, settings).finish();
-        let cracks = cracks(&traces);
-        let faces = graph::faces(&mut traces);
+        let cracks = cracks(&traces, settings);
+        let faces = graph::faces(&mut traces, settings);
         let pattern = Self { cracks, faces };
         debug_assert!(pattern.fills(outline.area()), "fragments do not fill the pane");
         Ok(pattern)
@@ -181,11 +181,11 @@ fn fits(outline: &Polygon, settings: &Settings) -> Result<()> {
 }
 
 /// Runs joined into straight stretches.
-fn cracks(traces: &Traces) -> Vec<Crack> {
+fn cracks(traces: &Traces, settings: &Settings) -> Vec<Crack> {
     let mut cracks: Vec<Crack> = Vec::new();
     let mut crack_of: Vec<u32> = vec![NONE; traces.runs.len()];
     let borders = traces.borders as u32;
-    for (index, run) in traces.runs.iter().enumerate().filter(|(_, run)| !run.border) {
+    for (index, run) in traces.runs.iter().enumerate().filter(|(_, run)| !run.is_border()) {
         let parent = if run.previous == NONE { NONE } else { crack_of[run.previous as usize] };
         let to = run.to.max(run.from);
         if run.vertex == NONE || (to == run.from && parent != NONE) {
@@ -204,10 +204,15 @@ fn cracks(traces: &Traces) -> Vec<Crack> {
             growth: [run.from, to],
             parent: (parent != NONE).then_some(parent),
             tip: run.trace - borders,
-            stopped_by: (by != NONE).then(|| {
-                if by < borders { Stopper::Border(by) } else { Stopper::Tip(by - borders) }
-            }),
+            stopped_by: (by != NONE)
+                .then(|| if by < borders { Stopper::Border(by) } else { Stopper::Tip(by - borders) }),
         });
+    }
+    if !settings.fronts.is_empty() {
+        for crack in &mut cracks {
+            let delays = crack.ends.map(|end| settings.delay(end));
+            crack.growth = [crack.growth[0] + delays[0], crack.growth[1] + delays[1]];
+        }
     }
     cracks
 }

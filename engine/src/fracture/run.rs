@@ -1,6 +1,6 @@
 //! A straight stretch of a crack or of the pane's border, and where two of them meet.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 
 /// No run, vertex or tip.
 pub(super) const NONE: u32 = u32::MAX;
@@ -12,7 +12,10 @@ const PARALLEL: f64 = 1e-11;
 ///
 /// A trace is all that one tip cuts, or one edge of the border. A place on it is given by `at`: for a crack the
 /// growth at which the tip came by [m], for the border the distance along its edge [m].
+///
+/// It fills one cache line: looking for meetings is a walk from run to run.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
 pub(super) struct Run {
     pub origin: DVec2,
     pub direction: DVec2,
@@ -26,9 +29,12 @@ pub(super) struct Run {
     pub previous: u32,
     /// The vertex at its origin; `NONE` where it goes straight on.
     pub vertex: u32,
-    /// Whether it was there before any crack.
-    pub border: bool,
+    /// The last run that was checked against it; [`BORDER`] in the top bit for what was there before any crack.
+    pub mark: u32,
 }
+
+/// The flag of the border's runs in their mark.
+pub(super) const BORDER: u32 = 1 << 31;
 
 /// Where two runs meet.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +55,22 @@ impl Run {
     /// When the tip comes by a place, as growth [m]: the border was always there.
     #[inline]
     pub fn time(&self, at: f64) -> f64 {
-        if self.border { f64::NEG_INFINITY } else { at }
+        if self.is_border() { f64::NEG_INFINITY } else { at }
+    }
+
+    /// Whether it was there before any crack.
+    #[inline]
+    pub fn is_border(&self) -> bool {
+        self.mark & BORDER != 0
+    }
+
+    /// Notes that the run number `by` is being checked against this one; says whether that is new.
+    #[inline]
+    pub fn note(&mut self, by: u32) -> bool {
+        let mark = by | (self.mark & BORDER);
+        let new = self.mark != mark;
+        self.mark = mark;
+        new
     }
 
     /// Whether this run, number `own`, and another one touch by construction.
@@ -91,7 +112,7 @@ impl Run {
         }
         let place = if sense > 0.0 {
             start
-        } else if other.border {
+        } else if other.is_border() {
             end
         } else {
             // Both at the same place at the same time, or where the later one starts.
@@ -102,74 +123,112 @@ impl Run {
     }
 }
 
+/// Where a run lies, roughly: its ends in cells of the grid from its corner.
+///
+/// Good enough to see which runs cannot meet, without fetching them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sketch {
+    ends: [Vec2; 2],
+}
+
+/// What rounding to a sketch costs at most, and more [cells].
+const BLUR: f32 = 2e-3;
+
+impl Sketch {
+    /// Whether two runs may meet: neither lies wholly on one side of the other.
+    #[inline]
+    fn may_meet(&self, other: &Self) -> bool {
+        !self.has_to_one_side(other) && !other.has_to_one_side(self)
+    }
+
+    #[inline]
+    fn has_to_one_side(&self, other: &Self) -> bool {
+        let along = self.ends[1] - self.ends[0];
+        let blur = BLUR * (along.x.abs() + along.y.abs());
+        let sides = other.ends.map(|end| along.perp_dot(end - self.ends[0]));
+        (sides[0] > blur && sides[1] > blur) || (sides[0] < -blur && sides[1] < -blur)
+    }
+}
+
 /// A uniform grid of lists of runs, to find who may meet whom.
 #[derive(Debug)]
 pub(super) struct Grid {
     low: DVec2,
     inverse: f64,
-    /// Edge of a cell [m]: no run is longer.
+    /// Edge of a cell [m]: no run of a crack is longer.
     pub cell: f64,
     columns: usize,
     rows: usize,
-    /// Head of each cell's list.
+    /// The newest block of each cell's list.
     heads: Vec<u32>,
-    /// Runs with the next entry of the same list.
-    entries: Vec<(u32, u32)>,
+    blocks: Vec<Block>,
+}
+
+/// Runs in one block.
+const BLOCK: usize = 6;
+
+/// Some runs of a cell, in two cache lines.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+struct Block {
+    sketches: [Sketch; BLOCK],
+    runs: [u32; BLOCK],
+    count: u32,
+    next: u32,
 }
 
 impl Grid {
-    /// A grid over the rectangle from `low` to `high` with cells of about `cell` [m].
+    /// A grid over the rectangle from `low` to `high` with cells of `cell` [m].
     pub fn new(low: DVec2, high: DVec2, cell: f64) -> Self {
         let size = high - low;
         let count = |length: f64| (length / cell) as usize + 1;
         let (columns, rows) = (count(size.x), count(size.y));
-        Self {
-            low,
-            inverse: 1.0 / cell,
-            cell,
-            columns,
-            rows,
-            heads: vec![NONE; columns * rows],
-            entries: Vec::new(),
-        }
+        let heads = vec![NONE; columns * rows];
+        Self { low, inverse: 1.0 / cell, cell, columns, rows, heads, blocks: Vec::new() }
     }
 
-    /// Cells that the box round a segment touches, `slack` [m] wider than it.
-    pub fn cells(&self, a: DVec2, b: DVec2, slack: f64) -> impl Iterator<Item = usize> + use<> {
-        let low = (a.min(b) - self.low - slack) * self.inverse;
-        let high = (a.max(b) - self.low + slack) * self.inverse;
-        let clamp = |x: f64, count: usize| (x.max(0.0) as usize).min(count - 1);
+    /// Where a run from `a` to `b` lies [m].
+    #[inline]
+    pub fn sketch(&self, a: DVec2, b: DVec2) -> Sketch {
+        Sketch { ends: [a, b].map(|end| ((end - self.low) * self.inverse).as_vec2()) }
+    }
+
+    /// Cells that the box round a run touches.
+    #[inline]
+    pub fn cells(&self, sketch: &Sketch) -> impl Iterator<Item = usize> + use<> {
+        let [a, b] = sketch.ends;
+        let (low, high) = (a.min(b) - BLUR, a.max(b) + BLUR);
+        let clamp = |x: f32, count: usize| (x.max(0.0) as usize).min(count - 1);
         let columns = clamp(low.x, self.columns)..=clamp(high.x, self.columns);
         let width = self.columns;
         (clamp(low.y, self.rows)..=clamp(high.y, self.rows))
             .flat_map(move |row| columns.clone().map(move |column| row * width + column))
     }
 
-    /// Runs that have been put into a cell.
-    pub fn list(&self, cell: usize) -> impl Iterator<Item = u32> + '_ {
-        let mut next = self.first(cell);
-        core::iter::from_fn(move || {
-            let (run, after) = self.entry(next)?;
-            next = after;
-            Some(run)
+    /// Runs in a cell that one may meet, the newest block first.
+    #[inline]
+    pub fn near(&self, cell: usize, sketch: &Sketch) -> impl Iterator<Item = u32> + use<'_> {
+        let sketch = *sketch;
+        let first = self.blocks.get(self.heads[cell] as usize);
+        core::iter::successors(first, |block| self.blocks.get(block.next as usize)).flat_map(move |block| {
+            (0..block.count as usize)
+                .filter(move |&i| block.sketches[i].may_meet(&sketch))
+                .map(|i| block.runs[i])
         })
     }
 
-    /// The first entry of a cell's list.
-    #[inline]
-    pub fn first(&self, cell: usize) -> u32 {
-        self.heads[cell]
-    }
-
-    /// The run at an entry and the entry after it; `None` at the end of a list.
-    #[inline]
-    pub fn entry(&self, entry: u32) -> Option<(u32, u32)> {
-        self.entries.get(entry as usize).copied()
-    }
-
     /// Puts a run into a cell.
-    pub fn put(&mut self, cell: usize, run: u32) {
-        self.entries.push((run, self.heads[cell]));
-        self.heads[cell] = (self.entries.len() - 1) as u32;
+    pub fn put(&mut self, cell: usize, sketch: Sketch, run: u32) {
+        let head = self.heads[cell];
+        if let Some(block) = self.blocks.get_mut(head as usize)
+            && (block.count as usize) < BLOCK
+        {
+            block.sketches[block.count as usize] = sketch;
+            block.runs[block.count as usize] = run;
+            block.count += 1;
+            return;
+        }
+        self.heads[cell] = self.blocks.len() as u32;
+        self.blocks.push(Block { sketches: [sketch; BLOCK], runs: [run; BLOCK], count: 1, next: head });
     }
 }

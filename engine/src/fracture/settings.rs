@@ -35,6 +35,9 @@ pub struct Settings {
     pub depth: Depth,
     /// How far a crack grows at most [m]; beyond, it stops without meeting anything, as a creep crack does.
     pub reach: Option<f64>,
+    /// Where fronts start that let cracks loose as they pass [m], at the speed of the cracks. They change when
+    /// things are cut, not where: every growth that the pattern tells has the distance from the nearest one added.
+    pub fronts: Vec<DVec2>,
     /// Every random draw comes from it.
     pub seed: u64,
 }
@@ -74,6 +77,8 @@ impl Nucleus {
 pub enum Forking {
     /// The thesis's rule: one fork every a_c of growth, whatever is left of the tree.
     Literal(Order),
+    /// No tip forks.
+    Never,
     /// One fork every a_c while all tips of a tree are running, and more seldom in proportion as they die: the
     /// energy that drives forking goes with the region that has been cut loose. A tip forks only where both
     /// branches have room.
@@ -166,7 +171,7 @@ pub struct Rings {
     pub share: f64,
 }
 
-/// How parameters change with every fork on the way from the nucleus (thesis 5.4.4).
+/// How parameters change with every fork on the way from the nucleus (thesis 5.4.4), at most sixteen-fold in all.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
     /// Factor on the critical length at each fork.
@@ -195,6 +200,7 @@ impl Settings {
             rings: None,
             depth: Depth::default(),
             reach: None,
+            fronts: Vec::new(),
             seed: 1,
         }
     }
@@ -205,7 +211,13 @@ impl Settings {
     /// [`Error::OutOfRange`] or [`Error::Malformed`] for the first value without a meaning.
     pub fn validate(&self) -> Result<()> {
         positive("critical length [m]", self.critical_length)?;
-        within("fork angle [rad]", self.fork_angle, 1e-3, PI - 1e-3, "an angle above 0 and below 180 degrees")?;
+        within(
+            "fork angle [rad]",
+            self.fork_angle,
+            1e-3,
+            PI - 1e-3,
+            "an angle above 0 and below 180 degrees",
+        )?;
         within("fork variance [rad]", self.fork_variance, 0.0, PI, "an angle from 0 to 180 degrees")?;
         within("wiggle probability", self.wiggle.probability, 0.0, 1.0, "a number from 0 to 1")?;
         within("wiggle variance [rad]", self.wiggle.variance, 0.0, PI, "an angle from 0 to 180 degrees")?;
@@ -232,6 +244,12 @@ impl Settings {
         self.nuclei.iter().try_for_each(Nucleus::validate)
     }
 
+    /// What the [`fronts`](Self::fronts) add to the growth at a point [m].
+    pub fn delay(&self, point: DVec2) -> f64 {
+        let nearest = self.fronts.iter().map(|front| front.distance(point)).fold(f64::INFINITY, f64::min);
+        if nearest.is_finite() { nearest } else { 0.0 }
+    }
+
     /// Whether running cracks may turn.
     pub fn turns(&self) -> bool {
         (self.wiggle.probability > 0.0 && self.wiggle.variance > 0.0) || self.guide != Guide::None
@@ -254,7 +272,9 @@ impl Guide {
     fn validate(&self) -> Result<()> {
         let length = match self {
             Self::None => return Ok(()),
-            Self::Outward { length } | Self::Direction { length, .. } | Self::Stress { length, .. } => *length,
+            Self::Outward { length } | Self::Direction { length, .. } | Self::Stress { length, .. } => {
+                *length
+            }
         };
         positive("length over which a guide turns a crack [m]", length)?;
         match self {

@@ -1,0 +1,370 @@
+//! Kinds of glass, and how finely a pane of each breaks.
+//!
+//! What is physics here and what is look:
+//!
+//! - **annealed**: the crack tree of the thesis. Cracks start where the pane fails, fork as energy allows, and run
+//!   to the edge. Long shards that bend outward, and the rings that cross them, are a look: in a pane they come from
+//!   bending, which a plane model does not see.
+//! - **tempered**: a look. The stress locked into the pane breaks all of it into dice about as large as it is thick
+//!   once a crack gets in; the dice come from half as many small three-armed cracks, and a front that runs out from
+//!   the seed at the speed of the cracks says when each is cut.
+//! - **laminated**: breaks as annealed does; the pieces stay on the interlayer. Whoever uses the pattern must hold
+//!   them: [`Glass::holds`].
+
+use core::f64::consts::PI;
+
+use glam::DVec2;
+
+use super::outline;
+use super::pattern::Pattern;
+use super::settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, Wiggle};
+use crate::error::{Error, Result, positive};
+use crate::geometry::Polygon;
+use crate::random;
+
+/// Kinds of glass that an artist asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Glass {
+    /// Float glass as it comes: long shards.
+    #[default]
+    Annealed,
+    /// Safety glass: dice.
+    Tempered,
+    /// Two panes on an interlayer: cracks, but nothing falls.
+    Laminated,
+}
+
+impl Glass {
+    /// Whether pieces stay on an interlayer.
+    pub fn holds(self) -> bool {
+        self == Self::Laminated
+    }
+}
+
+/// How finely a pane breaks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fineness {
+    /// About this many pieces, within 10 %.
+    Pieces(usize),
+    /// The critical length a_c of the cracks [m].
+    CriticalLength(f64),
+}
+
+/// How a crack starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Shape {
+    /// A short line that grows at both ends, as in the thesis.
+    Segment,
+    /// An X.
+    Cross,
+    /// A star of nine arms. It has no lens-shaped holes beside its middle, which a segment leaves.
+    #[default]
+    Star,
+}
+
+/// What an artist says of a pattern; [`Recipe::settings`] works out the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recipe {
+    /// Kind of glass.
+    pub glass: Glass,
+    /// How finely it breaks.
+    pub fineness: Fineness,
+    /// Where cracks start [m]; none: in the middle of the pane.
+    pub seeds: Vec<DVec2>,
+    /// How they start.
+    pub shape: Shape,
+    /// The thesis's own rule of forking, and nothing that it does not have.
+    pub literal: bool,
+    /// Angle between the branches of a fork [rad].
+    pub fork_angle: f64,
+    /// Full width of its variation [rad].
+    pub fork_variance: f64,
+    /// Probability of a turn at each step of a crack; 0 gives straight cracks.
+    pub wiggle_probability: f64,
+    /// Full width of the turns [rad].
+    pub wiggle_variance: f64,
+    /// Step of a crack at which it may turn [m]; left out, a third of the mean piece's size.
+    pub wiggle_spacing: Option<f64>,
+    /// Share of wedges that rings cross.
+    pub rings: f64,
+    /// How far cracks grow at most [m].
+    pub reach: Option<f64>,
+    /// A direction that cracks bend to [rad], in place of outward.
+    pub toward: Option<f64>,
+    /// Every random draw comes from it.
+    pub seed: u64,
+}
+
+impl Default for Recipe {
+    /// The thesis's angles (Fig. 5.14) on annealed glass, in some hundred pieces.
+    fn default() -> Self {
+        Self {
+            glass: Glass::Annealed,
+            fineness: Fineness::Pieces(500),
+            seeds: Vec::new(),
+            shape: Shape::Star,
+            literal: false,
+            fork_angle: 25.0_f64.to_radians(),
+            fork_variance: 34.5_f64.to_radians(),
+            wiggle_probability: 0.5,
+            wiggle_variance: 20.0_f64.to_radians(),
+            wiggle_spacing: None,
+            rings: 0.6,
+            reach: None,
+            toward: None,
+            seed: 1,
+        }
+    }
+}
+
+/// A pattern and what it was grown with.
+#[derive(Debug)]
+pub struct Grown {
+    /// The pattern.
+    pub pattern: Pattern,
+    /// Its settings, with the critical length that gave the pieces asked for.
+    pub settings: Settings,
+}
+
+/// More pieces than this from one nucleus become needles: then cracks start at flaws all over the pane as well.
+const MOST_PER_NUCLEUS: usize = 1500;
+/// Pieces from each flaw then.
+const PER_FLAW: f64 = 120.0;
+/// A count of pieces this near to what was asked for is good enough.
+const NEAR_ENOUGH: f64 = 0.05;
+/// Patterns grown at most to find a count.
+const ATTEMPTS: usize = 14;
+const STAR_ARMS: usize = 9;
+
+impl Recipe {
+    /// Grows the pattern. With [`Fineness::Pieces`] the critical length is searched for: the number of pieces rises
+    /// as it falls, along nearly a power law.
+    ///
+    /// # Errors
+    /// What [`Pattern::grow`] refuses; fewer pieces than the cracks' arms make, or a count out of reach.
+    pub fn grow(&self, outline: &Polygon) -> Result<Grown> {
+        outline::check(outline)?;
+        match self.fineness {
+            Fineness::CriticalLength(length) => self.grow_with(outline, length, 0),
+            Fineness::Pieces(0) => {
+                Err(Error::OutOfRange { what: "number of pieces", value: 0.0, expected: "at least 1" })
+            }
+            Fineness::Pieces(1) => self.unbroken(outline),
+            Fineness::Pieces(count) if self.glass == Glass::Tempered => {
+                let length = libm::sqrt(outline.area() / count as f64);
+                self.grow_with(outline, length, count)
+            }
+            Fineness::Pieces(count) => self.search(outline, count),
+        }
+    }
+
+    /// Settings for a critical length; `pieces`, where it is known, decides how many flaws crack as well.
+    ///
+    /// # Errors
+    /// A critical length that is not greater than 0.
+    pub fn settings(&self, outline: &Polygon, critical_length: f64, pieces: usize) -> Result<Settings> {
+        positive("critical length [m]", critical_length)?;
+        let seeds = if self.seeds.is_empty() { vec![middle(outline)] } else { self.seeds.clone() };
+        let dice = self.glass == Glass::Tempered && !self.literal;
+        let wanted = if dice {
+            outline.area() / (2.0 * critical_length * critical_length)
+        } else if pieces > MOST_PER_NUCLEUS * seeds.len() {
+            pieces as f64 / PER_FLAW
+        } else {
+            0.0
+        };
+        let nuclei = self.nuclei(outline, &seeds, wanted, dice);
+        let grain = grain(outline, nuclei.len(), critical_length, dice);
+        let spacing = self.wiggle_spacing.unwrap_or(grain / 3.0);
+        let wiggle = Wiggle {
+            probability: if dice { 0.0 } else { self.wiggle_probability },
+            variance: self.wiggle_variance,
+            spacing,
+        };
+        Ok(Settings {
+            nuclei,
+            critical_length,
+            forking: match (self.literal, dice) {
+                (true, _) => Forking::Literal(Order::FirstInFirstOut),
+                (false, true) => Forking::Never,
+                (false, false) => Forking::Driven { room: 0.8 * grain },
+            },
+            fork_angle: self.fork_angle,
+            fork_variance: self.fork_variance,
+            wiggle,
+            guide: match self.toward {
+                Some(angle) => Guide::Direction { angle, length: 4.0 * grain },
+                None if self.literal || dice || self.wiggle_probability == 0.0 => Guide::None,
+                None => Guide::Outward { length: 4.0 * grain },
+            },
+            rings: (self.rings > 0.0 && !self.literal && !dice).then_some(Rings {
+                spacing: 1.2 * grain,
+                growth: 1.5,
+                share: self.rings,
+            }),
+            depth: Depth::default(),
+            reach: self.reach,
+            fronts: if dice { seeds } else { Vec::new() },
+            seed: self.seed,
+        })
+    }
+
+    fn grow_with(&self, outline: &Polygon, critical_length: f64, pieces: usize) -> Result<Grown> {
+        let settings = self.settings(outline, critical_length, pieces)?;
+        Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
+    }
+
+    /// A pane that does not break.
+    fn unbroken(&self, outline: &Polygon) -> Result<Grown> {
+        let mut settings = self.settings(outline, libm::sqrt(outline.area()), 1)?;
+        settings.reach = Some(1e-3 * settings.critical_length);
+        settings.forking = Forking::Never;
+        settings.rings = None;
+        Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
+    }
+
+    fn search(&self, outline: &Polygon, count: usize) -> Result<Grown> {
+        let wanted = libm::log(count as f64);
+        let side = longer_side(outline);
+        let flaws = if count > MOST_PER_NUCLEUS { count as f64 / PER_FLAW } else { 1.0 };
+        let share = libm::sqrt(outline.area() / flaws);
+        let mut length = (share * flaws / count as f64).min(side);
+        let (mut low, mut high) = (f64::NEG_INFINITY, libm::log(side));
+        let mut best: Option<(f64, Grown)> = None;
+        for _attempt in 0..ATTEMPTS {
+            let grown = self.grow_with(outline, length, count)?;
+            let off = libm::log(grown.pattern.len() as f64) - wanted;
+            let here = libm::log(length);
+            if best.as_ref().is_none_or(|(least, _)| off.abs() < *least) {
+                best = Some((off.abs(), grown));
+            }
+            if off.abs() < NEAR_ENOUGH || here == high && off > 0.0 {
+                break;
+            }
+            // Too many pieces ask for a longer length.
+            if off > 0.0 {
+                low = here
+            } else {
+                high = here
+            }
+            let guess = here + off;
+            let inside = guess > low && guess < high;
+            length = libm::exp(if inside {
+                guess
+            } else if low.is_finite() {
+                0.5 * (low + high)
+            } else {
+                here + off.min(-0.7)
+            });
+        }
+        let (off, grown) = best.expect("at least one attempt");
+        if off > libm::log(1.1) {
+            return Err(Error::Malformed(format!(
+                "{count} pieces cannot be had with these cracks; the nearest is {}, so ask for that many or change \
+                 the shape or number of the starts",
+                grown.pattern.len()
+            )));
+        }
+        Ok(grown)
+    }
+
+    /// Seeds, and with flaws spread over the pane some `wanted` nuclei in all.
+    fn nuclei(&self, outline: &Polygon, seeds: &[DVec2], wanted: f64, dice: bool) -> Vec<Nucleus> {
+        let (arms, shape) = if dice { (3, Shape::Star) } else { (STAR_ARMS, self.shape) };
+        let mut nuclei: Vec<Nucleus> =
+            seeds.iter().enumerate().map(|(i, &at)| self.nucleus(at, shape, arms, i as u64)).collect();
+        if self.literal || wanted <= seeds.len() as f64 {
+            return nuclei;
+        }
+        let near = 1e-6 * longer_side(outline);
+        for (index, at) in spread(outline, wanted, self.seed).into_iter().enumerate() {
+            if seeds.iter().all(|seed| seed.distance(at) > near) {
+                nuclei.push(self.nucleus(at, shape, arms, (seeds.len() + index) as u64));
+            }
+        }
+        nuclei
+    }
+
+    fn nucleus(&self, at: DVec2, shape: Shape, arms: usize, index: u64) -> Nucleus {
+        if self.literal {
+            return match shape {
+                Shape::Segment => Nucleus::segment(at, 0.0),
+                Shape::Cross => Nucleus::cross(at, 0.25 * PI),
+                Shape::Star => Nucleus::star(at, 0.0, arms),
+            };
+        }
+        let draw = |key: u64| random::unit(self.seed ^ STARTS, index, key);
+        let angle = 2.0 * PI * draw(0);
+        let mut nucleus = match shape {
+            Shape::Segment => return Nucleus::segment(at, angle),
+            Shape::Cross => return Nucleus::cross(at, angle),
+            Shape::Star => Nucleus::star(at, angle, arms),
+        };
+        // Arms are never quite even.
+        let play = 0.5 * 2.0 * PI / arms as f64;
+        for (key, arm) in (1..).zip(&mut nucleus.arms) {
+            *arm += play * (draw(key) - 0.5);
+        }
+        nucleus
+    }
+}
+
+/// Streams of draws for starts, apart from those of the cracks.
+const STARTS: u64 = 0x5_7A27;
+const FLAWS: u64 = 0xF_1A35;
+
+/// Some `count` points inside an outline, evenly spread and yet in no order: one at random in each cell of a grid.
+fn spread(outline: &Polygon, count: f64, seed: u64) -> Vec<DVec2> {
+    let (low, high) = bounds(outline);
+    let cell = libm::sqrt(outline.area() / count);
+    let size = ((high - low) / cell).ceil();
+    let (columns, rows) = (size.x as u64, size.y as u64);
+    let mut points = Vec::with_capacity(count as usize + 16);
+    for row in 0..rows {
+        for column in 0..columns {
+            let draw = |key| 0.08 + 0.84 * random::unit(seed ^ FLAWS, row * columns + column, key);
+            // Odd rows are shifted, so that no lines show.
+            let shift = 0.5 * (row % 2) as f64;
+            let at = low + cell * DVec2::new(column as f64 + draw(0) + shift - 0.25, row as f64 + draw(1));
+            if outline::contains(outline, at) {
+                points.push(at);
+            }
+        }
+    }
+    points
+}
+
+/// Size of the mean piece [m].
+fn grain(outline: &Polygon, nuclei: usize, critical_length: f64, dice: bool) -> f64 {
+    if dice {
+        return critical_length;
+    }
+    let count = nuclei as f64;
+    let share = libm::sqrt(outline.area() / count);
+    libm::sqrt(outline.area() / (count * (STAR_ARMS as f64 + share / critical_length)))
+}
+
+fn bounds(outline: &Polygon) -> (DVec2, DVec2) {
+    let points = outline.points().iter().copied();
+    (points.clone().fold(DVec2::INFINITY, DVec2::min), points.fold(DVec2::NEG_INFINITY, DVec2::max))
+}
+
+fn longer_side(outline: &Polygon) -> f64 {
+    let (low, high) = bounds(outline);
+    (high - low).max_element()
+}
+
+/// The centroid, or where that is outside the pane the inner point of a coarse grid farthest from the border.
+fn middle(outline: &Polygon) -> DVec2 {
+    let centroid = outline.moments().centroid;
+    if outline::contains(outline, centroid) {
+        return centroid;
+    }
+    let (low, high) = bounds(outline);
+    let grid = (1..32)
+        .flat_map(|row| (1..32).map(move |column| DVec2::new(f64::from(column), f64::from(row)) / 32.0));
+    grid.map(|share| low + (high - low) * share)
+        .filter(|&at| outline::contains(outline, at))
+        .max_by(|&a, &b| outline::clearance(outline, a).total_cmp(&outline::clearance(outline, b)))
+        .unwrap_or(centroid)
+}
