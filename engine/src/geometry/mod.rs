@@ -4,8 +4,12 @@
 
 mod mass;
 mod mesh;
+mod moments;
+mod polygon;
 mod silhouette;
 
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;
+pub use moments::PlaneMoments;
+pub use polygon::Polygon;
 pub use silhouette::Silhouette;
