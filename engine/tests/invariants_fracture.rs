@@ -122,7 +122,12 @@ fn any_settings(draws: &mut Draws, pane: &Polygon) -> Settings {
             1 => Forking::Literal(Order::Random),
             _ => Forking::Driven { room: size * draws.between(0.0, 0.1) },
         },
-        fork_angle: draws.between(0.02, 2.9),
+        // Now and then an angle that makes lattices, in which cracks meet corners and run along each other.
+        fork_angle: if draws.chance(0.3) {
+            [30.0, 45.0, 60.0, 90.0, 120.0][draws.whole(0, 4)] * PI / 180.0
+        } else {
+            draws.between(0.02, 2.9)
+        },
         fork_variance: if draws.chance(0.4) { 0.0 } else { draws.between(0.0, 2.0) },
         wiggle: Wiggle {
             probability: if draws.chance(0.4) { 0.0 } else { draws.unit() },

@@ -54,8 +54,6 @@ pub(super) struct Traces {
 pub(super) struct Tip {
     /// The run being cut, or the last one.
     run: u32,
-    /// The run it started from.
-    pub parent: u32,
     /// The trace that stopped it; `NONE` while it runs, where it forked, and where it just ended.
     pub stopped_by: u32,
     tree: u32,
@@ -217,7 +215,6 @@ impl<'a> Growth<'a> {
             self.push_run(run);
             self.done.tips.push(Tip {
                 run: number,
-                parent: NONE,
                 stopped_by: NONE,
                 tree: NONE,
                 depth: 0,
@@ -273,7 +270,6 @@ impl<'a> Growth<'a> {
         let next_ring = if parent == NONE { 0 } else { self.done.tips[self.trace(parent)].next_ring };
         self.done.tips.push(Tip {
             run: NONE,
-            parent,
             stopped_by: NONE,
             tree,
             depth,
@@ -340,9 +336,12 @@ impl<'a> Growth<'a> {
         }
         let Some(meeting) = run.meet(other, self.done.resolution) else { return };
         let (own, theirs) = (meeting.first, other.time(meeting.second));
-        if (theirs, other.trace) <= (own, run.trace) {
+        let second = (theirs, other.trace) <= (own, run.trace);
+        if second || meeting.head_on {
             self.queue.schedule(own, Happening::Meet { run: number, other: index });
-        } else if self.done.tips[other.trace as usize].run == index {
+        }
+        let other = &self.done.runs[index as usize];
+        if (!second || meeting.head_on) && self.done.tips[other.trace as usize].run == index {
             self.queue.schedule(theirs, Happening::Meet { run: index, other: number });
         }
     }
@@ -560,10 +559,10 @@ impl<'a> Growth<'a> {
         let origin = run.point(now);
         let vertex = self.vertex(origin);
         self.mark(trace, now, vertex);
-        self.done.runs[tip.run as usize].to = now;
         self.halt(trace, NONE);
-        // A run that has only just begun touches what its predecessor touches.
+        // A run that has only just begun comes to nothing: the branches go on from its predecessor.
         let just_begun = now - run.from < self.done.resolution && run.previous != NONE;
+        self.done.runs[tip.run as usize].to = if just_begun { f64::NEG_INFINITY } else { now };
         let parent = if just_begun { run.previous } else { tip.run };
         let mut children = branches.map(|heading| {
             let child = self.new_tip(tip.tree, tip.depth + 1, tip.run, Kind::Branch, now);

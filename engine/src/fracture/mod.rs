@@ -17,10 +17,12 @@ mod graph;
 mod growth;
 pub mod outline;
 mod pattern;
+mod pieces;
 mod run;
 mod settings;
 
 pub use clock::CrackClock;
 pub use glass::{Fineness, Glass, Grown, Recipe, Shape};
 pub use pattern::{Crack, Fragment, Pattern, Stopper};
+pub use pieces::Pieces;
 pub use settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, StressField, Wiggle};

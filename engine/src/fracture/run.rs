@@ -21,7 +21,8 @@ pub(super) struct Run {
     pub direction: DVec2,
     /// `at` of the origin.
     pub from: f64,
-    /// `at` of the end: planned while the tip runs, then where it ended.
+    /// `at` of the end: planned while the tip runs, then where it ended. Before `from` for a run that came to
+    /// nothing, which nobody meets.
     pub to: f64,
     /// The tip that cuts it; the border's edges come first.
     pub trace: u32,
@@ -43,6 +44,8 @@ pub(super) struct Meeting {
     pub first: f64,
     /// `at` of the place on the second run.
     pub second: f64,
+    /// Whether both come there on one line from opposite sides, so that neither passes.
+    pub head_on: bool,
 }
 
 impl Run {
@@ -85,6 +88,9 @@ impl Run {
     /// lost to rounding.
     #[inline]
     pub fn meet(&self, other: &Run, slack: f64) -> Option<Meeting> {
+        if other.to < other.from {
+            return None;
+        }
         let gap = other.origin - self.origin;
         let sine = self.direction.perp_dot(other.direction);
         if sine.abs() < PARALLEL {
@@ -96,7 +102,7 @@ impl Run {
             && along <= self.to - self.from + slack
             && across >= -slack
             && across <= other.to - other.from + slack;
-        inside.then(|| Meeting { first: self.from + along, second: other.from + across })
+        inside.then(|| Meeting { first: self.from + along, second: other.from + across, head_on: false })
     }
 
     /// The same for two runs on one line: a tip that comes to where the other one started, or both head-on.
@@ -107,19 +113,27 @@ impl Run {
         let start = gap.dot(self.direction);
         let sense = self.direction.dot(other.direction);
         let end = start + sense * (other.to - other.from);
-        if start.max(end) < -slack || start.min(end) > self.to - self.from + slack {
+        // Half of the way between two that are under way towards each other; a tip that starts on the other's trace
+        // meets it there. What lies before a run that only goes on was settled when its predecessor was laid out.
+        let half = 0.5 * (start + other.from - self.from);
+        let towards = sense < 0.0 && !other.is_border();
+        let (place, head_on) = if !towards {
+            // One that starts on the trace of another, along it, meets it at once.
+            let first = start.min(end);
+            (if first < 0.0 && self.vertex != NONE { 0.0 } else { first }, false)
+        } else if half < 0.0 && self.vertex != NONE {
+            (0.0, false)
+        } else if half > start && other.vertex != NONE {
+            (start, false)
+        } else {
+            (half, true)
+        };
+        let (low, high) = (start.min(end), start.max(end));
+        let inside = |x: f64, from: f64, to: f64| x >= from - slack && x <= to + slack;
+        if !inside(place, 0.0, self.to - self.from) || !inside(place, low, high) {
             return None;
         }
-        let place = if sense > 0.0 {
-            start
-        } else if other.is_border() {
-            end
-        } else {
-            // Both at the same place at the same time, or where the later one starts.
-            (0.5 * (start + other.from - self.from)).clamp(0.0, start.max(0.0))
-        };
-        let place = place.clamp(-slack, self.to - self.from + slack);
-        Some(Meeting { first: self.from + place, second: other.from + (place - start) * sense })
+        Some(Meeting { first: self.from + place, second: other.from + (place - start) * sense, head_on })
     }
 }
 

@@ -6,10 +6,16 @@ mod mass;
 mod mesh;
 mod moments;
 mod polygon;
+mod prism;
+mod samples;
 mod silhouette;
+mod triangulation;
 
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;
 pub use moments::PlaneMoments;
 pub use polygon::Polygon;
+pub use prism::{PieceMesh, PieceMeshes};
+pub use samples::{Sample, sample_panels};
 pub use silhouette::Silhouette;
+pub use triangulation::Triangulator;

@@ -60,7 +60,7 @@ impl PlaneMoments {
     /// vector with x > 0, or +y. A figure without a longest direction (a square, a disc) gets +x.
     pub fn long_axis(&self) -> DVec2 {
         let half = 0.5 * (self.xx - self.yy);
-        let radius = libm::hypot(half, self.xy);
+        let radius = libm::sqrt(half * half + self.xy * self.xy);
         // Of two parallel forms of the eigenvector, the one whose sum does not cancel.
         let axis =
             if half >= 0.0 { DVec2::new(radius + half, self.xy) } else { DVec2::new(self.xy, radius - half) };
@@ -71,7 +71,8 @@ impl PlaneMoments {
     /// Second moments `∫ u² dA` along the [`long_axis`](Self::long_axis) and across it [m⁴].
     pub fn principal(&self) -> [f64; 2] {
         let middle = 0.5 * (self.xx + self.yy);
-        let radius = libm::hypot(0.5 * (self.xx - self.yy), self.xy);
+        let half = 0.5 * (self.xx - self.yy);
+        let radius = libm::sqrt(half * half + self.xy * self.xy);
         [middle + radius, (middle - radius).max(0.0)]
     }
 
