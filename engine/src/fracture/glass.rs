@@ -12,6 +12,7 @@
 //!   them: [`Glass::holds`].
 
 use core::f64::consts::PI;
+use core::ops::ControlFlow;
 
 use glam::DVec2;
 
@@ -126,6 +127,8 @@ pub struct Grown {
     pub settings: Settings,
 }
 
+type Observer<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
+
 /// More pieces than this from one nucleus become needles: then cracks start at flaws all over the pane as well.
 const MOST_PER_NUCLEUS: usize = 1500;
 /// Pieces from each flaw then.
@@ -141,20 +144,32 @@ impl Recipe {
     /// as it falls, along nearly a power law.
     ///
     /// # Errors
-    /// What [`Pattern::grow`] refuses; fewer pieces than the cracks' arms make, or a count out of reach.
+    /// What [`Pattern::grow`] refuses; a count of pieces that is out of reach.
     pub fn grow(&self, outline: &Polygon) -> Result<Grown> {
+        self.grow_observed(outline, &mut || ControlFlow::Continue(()))
+    }
+
+    /// The same for work that may take long: `observer` is asked every few milliseconds, and may break it off.
+    ///
+    /// # Errors
+    /// Those of [`grow`](Self::grow), and [`Error::Cancelled`].
+    pub fn grow_observed(
+        &self,
+        outline: &Polygon,
+        observer: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Grown> {
         outline::check(outline)?;
         match self.fineness {
-            Fineness::CriticalLength(length) => self.grow_with(outline, length, 0),
+            Fineness::CriticalLength(length) => self.grow_with(outline, length, 0, observer),
             Fineness::Pieces(0) => {
                 Err(Error::OutOfRange { what: "number of pieces", value: 0.0, expected: "at least 1" })
             }
             Fineness::Pieces(1) => self.unbroken(outline),
             Fineness::Pieces(count) if self.glass == Glass::Tempered => {
                 let length = libm::sqrt(outline.area() / count as f64);
-                self.grow_with(outline, length, count)
+                self.grow_with(outline, length, count, observer)
             }
-            Fineness::Pieces(count) => self.search(outline, count),
+            Fineness::Pieces(count) => self.search(outline, count, observer),
         }
     }
 
@@ -209,9 +224,15 @@ impl Recipe {
         })
     }
 
-    fn grow_with(&self, outline: &Polygon, critical_length: f64, pieces: usize) -> Result<Grown> {
+    fn grow_with(
+        &self,
+        outline: &Polygon,
+        critical_length: f64,
+        pieces: usize,
+        observer: Observer,
+    ) -> Result<Grown> {
         let settings = self.settings(outline, critical_length, pieces)?;
-        Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
+        Ok(Grown { pattern: Pattern::grow_observed(outline, &settings, observer)?, settings })
     }
 
     /// A pane that does not break.
@@ -223,7 +244,7 @@ impl Recipe {
         Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
     }
 
-    fn search(&self, outline: &Polygon, count: usize) -> Result<Grown> {
+    fn search(&self, outline: &Polygon, count: usize, observer: Observer) -> Result<Grown> {
         let wanted = libm::log(count as f64);
         let side = longer_side(outline);
         let flaws = if count > MOST_PER_NUCLEUS { count as f64 / PER_FLAW } else { 1.0 };
@@ -232,7 +253,7 @@ impl Recipe {
         let (mut low, mut high) = (f64::NEG_INFINITY, libm::log(side));
         let mut best: Option<(f64, Grown)> = None;
         for _attempt in 0..ATTEMPTS {
-            let grown = self.grow_with(outline, length, count)?;
+            let grown = self.grow_with(outline, length, count, observer)?;
             let off = libm::log(grown.pattern.len() as f64) - wanted;
             let here = libm::log(length);
             if best.as_ref().is_none_or(|(least, _)| off.abs() < *least) {

@@ -8,6 +8,7 @@
 //!
 //! Ties go to the tip with the lower number, and each pair is decided once, so the outcome is the same everywhere.
 
+use core::ops::ControlFlow;
 use std::collections::VecDeque;
 
 use glam::DVec2;
@@ -15,6 +16,7 @@ use glam::DVec2;
 use super::calendar::Calendar;
 use super::run::{BORDER, Grid, NONE, Run};
 use super::settings::{Forking, Guide, Order, Settings};
+use crate::error::{Error, Result};
 use crate::geometry::Polygon;
 use crate::random;
 
@@ -24,6 +26,8 @@ const RESOLUTION: f64 = 1e-10;
 const MOST_CELLS: f64 = 2e3;
 /// The widest angle a fork grows to with depth [rad].
 const WIDEST_FORK: f64 = 0.95 * core::f64::consts::PI;
+/// Events after which the observer is asked whether to go on: some milliseconds.
+const BETWEEN_OBSERVATIONS: u32 = 1 << 13;
 /// Tips that are asked whether they have room, at one fork.
 const CANDIDATES: usize = 4;
 
@@ -170,9 +174,14 @@ impl<'a> Growth<'a> {
         growth
     }
 
-    /// Grows until every tip has stopped.
-    pub fn finish(mut self) -> Traces {
+    /// Grows until every tip has stopped. `observer` hears now and then that work goes on, and may break it off.
+    pub fn finish(mut self, observer: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Traces> {
+        let mut heard = 0_u32;
         while let Some(event) = self.queue.pop() {
+            heard = heard.wrapping_add(1);
+            if heard.is_multiple_of(BETWEEN_OBSERVATIONS) && observer().is_break() {
+                return Err(Error::Cancelled);
+            }
             let time = event.time;
             match event.what {
                 Happening::Start { nucleus } => self.plant(nucleus, time),
@@ -182,7 +191,7 @@ impl<'a> Growth<'a> {
                 Happening::Ring { sprout } => self.sprout(self.sprouts[sprout as usize], time),
             }
         }
-        self.done
+        Ok(self.done)
     }
 
     fn vertex(&mut self, position: DVec2) -> u32 {

@@ -1,5 +1,7 @@
 //! A finished crack pattern.
 
+use core::ops::ControlFlow;
+
 use glam::DVec2;
 
 use super::graph::{self, Faces};
@@ -61,10 +63,22 @@ impl Pattern {
     /// What [`outline::check`] and [`Settings::validate`] refuse; a nucleus outside the pane; a critical length
     /// longer than the pane; settings that would give more than 50 million pieces.
     pub fn grow(outline: &Polygon, settings: &Settings) -> Result<Self> {
+        Self::grow_observed(outline, settings, &mut || ControlFlow::Continue(()))
+    }
+
+    /// The same for work that may take long: `observer` is asked every few milliseconds, and may break it off.
+    ///
+    /// # Errors
+    /// Those of [`grow`](Self::grow), and [`Error::Cancelled`].
+    pub fn grow_observed(
+        outline: &Polygon,
+        settings: &Settings,
+        observer: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Self> {
         outline::check(outline)?;
         settings.validate()?;
         fits(outline, settings)?;
-        let mut traces = Growth::new(outline, settings).finish();
+        let mut traces = Growth::new(outline, settings).finish(observer)?;
         let cracks = cracks(&traces, settings);
         let faces = graph::faces(&mut traces, settings);
         let pattern = Self { cracks, faces };
