@@ -3,7 +3,7 @@
 //! Pure computation: no files, no printing, no clock. The parts, in the order in which they use each other:
 //!
 //! - [`error`], [`air`], [`geometry`]: the ground everything stands on;
-//! - [`charge`]: explosives, TNT equivalence, burst;
+//! - [`charge`]: explosives, TNT equivalence, burst; [`material`]: brittle materials and their cracks;
 //! - [`blast`]: at this point, from this charge: when does the front come, and what is the pulse?
 //! - [`loading`]: what that pulse does to a piece of surface;
 //! - [`dynamics`]: how bodies stand, slide, fly and land;
@@ -24,6 +24,7 @@ pub mod error;
 pub mod fracture;
 pub mod geometry;
 pub mod loading;
+pub mod material;
 pub mod random;
 pub mod recording;
 pub mod scene;

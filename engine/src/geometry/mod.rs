@@ -1,4 +1,5 @@
-//! Shapes and what follows from them alone: mass properties, silhouettes, triangle meshes.
+//! Shapes and what follows from them alone: mass properties, silhouettes, triangle meshes, and polygons made into
+//! solid pieces.
 //!
 //! This room knows nothing of air, charges or time. Lengths in metres, masses in kilograms.
 
