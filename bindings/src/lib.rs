@@ -6,6 +6,7 @@
 mod arrays;
 mod blast;
 mod fracture;
+mod material;
 mod recording;
 mod scene;
 
@@ -28,6 +29,10 @@ mod _engine {
     };
     #[pymodule_export]
     use super::fracture::{FracturePattern, Pieces, crack_time, fracture};
+    #[pymodule_export]
+    use super::material::{
+        critical_length, energy_release, material_facts, materials, mean_fragment_area, mean_fragment_velocity,
+    };
     #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]

@@ -26,9 +26,11 @@ if TYPE_CHECKING:
         Loading,
         MeshObject,
         Occlusion,
+        Pattern,
         Scene,
         Time,
     )
+    from brisance.pane import Fracture, fracture
     from brisance.result import Bodies, Result
     from brisance.scene_file import load
     from brisance.simulation import simulate
@@ -45,8 +47,11 @@ _HOME = {
     "Loading": "model",
     "MeshObject": "model",
     "Occlusion": "model",
+    "Pattern": "model",
     "Scene": "model",
     "Time": "model",
+    "Fracture": "pane",
+    "fracture": "pane",
     "Bodies": "result",
     "Result": "result",
     "load": "scene_file",
@@ -61,15 +66,18 @@ __all__ = [
     "BrisanceError",
     "Charge",
     "Dynamics",
+    "Fracture",
     "Ground",
     "InputError",
     "Loading",
     "MeshObject",
     "Occlusion",
+    "Pattern",
     "Result",
     "Scene",
     "Time",
     "__version__",
+    "fracture",
     "load",
     "simulate",
 ]

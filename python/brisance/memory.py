@@ -37,6 +37,16 @@ def check_fits(frames: int, pieces: int) -> None:
         )
 
 
+def check_pieces_fit(pieces: int) -> None:
+    """Raise :class:`InputError`, saying how much is needed, unless so many fragments fit in memory."""
+    needed, available = pieces * BYTES_A_PIECE, available_bytes()
+    if available is not None and needed > available:
+        raise InputError(
+            f"{pieces:,} fragments need {_amount(needed)} of memory and {_amount(available)} are available; "
+            "ask for fewer pieces or a longer critical length."
+        )
+
+
 def _system_bytes() -> int | None:
     try:
         found = re.search(r"^MemAvailable:\s+(\d+) kB", Path("/proc/meminfo").read_text(), re.MULTILINE)

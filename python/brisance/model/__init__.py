@@ -12,6 +12,7 @@ from __future__ import annotations
 from brisance.model.base import Material, Model
 from brisance.model.charge import Charge, explosive_factor
 from brisance.model.objects import AnyObject, Block, BrickWall, MeshObject, SceneObject, object_keys
+from brisance.model.pattern import Pattern
 from brisance.model.scene import Scene
 from brisance.model.settings import Air, Dynamics, Ground, Loading, Occlusion, SceneSettings, Time
 
@@ -28,6 +29,7 @@ __all__ = [
     "MeshObject",
     "Model",
     "Occlusion",
+    "Pattern",
     "Scene",
     "SceneObject",
     "SceneSettings",

@@ -1,0 +1,88 @@
+"""How a brittle pane breaks, as an artist says it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field, StrictBool, model_validator
+
+from brisance.model.base import Count, Model, Number, Positive
+
+Share = Annotated[Number, Field(ge=0, le=1)]
+Angle = Annotated[Number, Field(ge=0, le=180)]
+Place = Annotated[tuple[Share, Share], BeforeValidator(lambda v: v.tolist() if hasattr(v, "tolist") else v)]
+
+
+class Pattern(Model):
+    """A crack pattern. Angles in degrees; the same seed gives the same pattern everywhere."""
+
+    glass: Literal["annealed", "tempered", "laminated"] = Field(
+        default="annealed",
+        description="annealed: long shards (default); tempered: dice all over the pane; laminated: cracks like "
+        "annealed glass, but the pieces stay on the interlayer.",
+    )
+    pieces: Count | None = Field(
+        default=None,
+        description="About how many fragments, within 10 %, 1 or more; in place of critical_length. Left out "
+        "together with it: 500, or dice of 8 mm for tempered glass.",
+    )
+    critical_length: Positive | None = Field(
+        default=None,
+        description="Critical length of cracks [m], above 0, at most the pane's longer side: a tree forks each "
+        "time its cracks have grown by this much. Smaller gives more and finer pieces.",
+    )
+    seeds: list[Place] = Field(
+        default_factory=list,
+        description="Where cracks start, as shares of width and height from the lower left corner, 0 to 1; left "
+        "out, in the middle.",
+    )
+    shape: Literal["segment", "cross", "star"] = Field(
+        default="star",
+        description="How a crack starts: a short line (as in the thesis), an X, or a star of nine arms (default).",
+    )
+    literal: StrictBool = Field(
+        default=False,
+        description="Whether to fork by the thesis's own rule and nothing else: one fork each critical length, "
+        "whatever is left to break. Default false.",
+    )
+    fork_angle: Annotated[Number, Field(gt=0, lt=180)] = Field(
+        default=25.0,
+        description="Angle between the branches of a fork [degrees], above 0 and below 180; default 25. Larger "
+        "gives rounder pieces.",
+    )
+    fork_variance: Angle = Field(
+        default=34.5,
+        description="Full width of the range in which that angle varies [degrees], 0 to 180; default 34.5.",
+    )
+    wiggle_probability: Share = Field(
+        default=0.5,
+        description="Probability that a crack turns at each step, 0 to 1; default 0.5. 0 gives straight cracks.",
+    )
+    wiggle_variance: Angle = Field(
+        default=20.0,
+        description="Full width of the range of such turns [degrees], 0 to 180; default 20. More is rougher.",
+    )
+    wiggle_spacing: Positive | None = Field(
+        default=None,
+        description="Step at which a crack may turn [m], above 0; left out, a third of a mean piece. Smaller "
+        "gives finer edges and more vertices.",
+    )
+    rings: Share = Field(
+        default=0.6,
+        description="Share of the wedges between radial cracks that rings cross, 0 to 1; default 0.6.",
+    )
+    reach: Positive | None = Field(
+        default=None,
+        description="How far cracks grow at most [m], above 0: a creep crack that does not cross the pane. Left "
+        "out, to the border.",
+    )
+    toward: Number | None = Field(
+        default=None,
+        description="Direction that cracks bend to [degrees] counter-clockwise from the width; left out, outward.",
+    )
+
+    @model_validator(mode="after")
+    def _one_fineness(self) -> Pattern:
+        if self.pieces is not None and self.critical_length is not None:
+            raise ValueError("has both pieces and critical_length; keep one of them")
+        return self
