@@ -27,12 +27,12 @@ DEFAULT_PIECES = 500
 DICE = 0.008
 """Size of the dice of tempered glass when nothing is said of them [m]: EN 12150-1 asks for at least 40 on a
 square of 50 mm, which are 7.9 mm wide."""
-MATERIAL = "soda-lime glass"
+MATERIAL = "glass"
 
 
 @dataclass(frozen=True, eq=False)
 class Fracture:
-    """A broken pane. Lengths in metres in the pane's plane, times in seconds from when the first crack starts."""
+    """A broken pane. Lengths [m] in the pane's plane, times [s] from when the first crack starts."""
 
     pattern: Pattern
     """What was asked for."""
@@ -97,8 +97,8 @@ def fracture(
 ) -> Fracture:
     """Break a pane of ``width`` by ``height`` [m], or of any ``outline``.
 
-    ``outline`` is a list of rings (n, 2) [m], whichever way they run: the pane's and then those of its holes. The
-    same arguments give the same bytes. Raises :class:`InputError` for what cannot be broken.
+    ``outline`` is a list of rings (n, 2) [m], whichever way they run: the pane's and then those of its
+    holes. The same arguments give the same bytes. Raises :class:`InputError` for what cannot be broken.
     """
     pattern = pattern or Pattern()
     rings = _rectangle(width, height) if outline is None else _rings(outline)
@@ -144,7 +144,7 @@ def _rectangle(width: float, height: float) -> list[Array]:
 
 
 def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
-    """Rings as arrays, the first turned counter-clockwise and the others clockwise, a repeated last point dropped."""
+    """Rings as arrays: the first turned counter-clockwise, others clockwise, a repeated last point dropped."""
     rings = []
     for index, ring in enumerate(outline):
         points = np.asarray(ring, dtype=float)

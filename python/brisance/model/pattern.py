@@ -18,8 +18,8 @@ class Pattern(Model):
 
     glass: Literal["annealed", "tempered", "laminated"] = Field(
         default="annealed",
-        description="annealed: long shards (default); tempered: dice all over the pane; laminated: cracks like "
-        "annealed glass, but the pieces stay on the interlayer.",
+        description="annealed: long shards (default); tempered: dice all over the pane; laminated: cracks "
+        "like annealed glass, but the pieces stay on the interlayer.",
     )
     pieces: Count | None = Field(
         default=None,
@@ -28,27 +28,28 @@ class Pattern(Model):
     )
     critical_length: Positive | None = Field(
         default=None,
-        description="Critical length of cracks [m], above 0, at most the pane's longer side: a tree forks each "
-        "time its cracks have grown by this much. Smaller gives more and finer pieces.",
+        description="Critical length of cracks [m], above 0, at most the pane's longer side: a tree forks "
+        "each time its cracks have grown by this much. Smaller gives more and finer pieces.",
     )
     seeds: list[Place] = Field(
         default_factory=list,
-        description="Where cracks start, as shares of width and height from the lower left corner, 0 to 1; left "
-        "out, in the middle.",
+        description="Where cracks start, as shares of width and height from the lower left corner, 0 to 1; "
+        "left out, in the middle.",
     )
     shape: Literal["segment", "cross", "star"] = Field(
         default="star",
-        description="How a crack starts: a short line (as in the thesis), an X, or a star of nine arms (default).",
+        description="How a crack starts: a short line (as in the thesis), an X, or a star of nine arms "
+        "(default).",
     )
     literal: StrictBool = Field(
         default=False,
-        description="Whether to fork by the thesis's own rule and nothing else: one fork each critical length, "
-        "whatever is left to break. Default false.",
+        description="Whether to fork by the thesis's own rule and nothing else: one fork each critical "
+        "length, whatever is left to break. Default false.",
     )
     fork_angle: Annotated[Number, Field(gt=0, lt=180)] = Field(
         default=25.0,
-        description="Angle between the branches of a fork [degrees], above 0 and below 180; default 25. Larger "
-        "gives rounder pieces.",
+        description="Angle between the branches of a fork [degrees], above 0 and below 180; default 25. "
+        "Larger gives rounder pieces.",
     )
     fork_variance: Angle = Field(
         default=34.5,
@@ -56,7 +57,8 @@ class Pattern(Model):
     )
     wiggle_probability: Share = Field(
         default=0.5,
-        description="Probability that a crack turns at each step, 0 to 1; default 0.5. 0 gives straight cracks.",
+        description="Probability that a crack turns at each step, 0 to 1; default 0.5. 0 gives straight "
+        "cracks.",
     )
     wiggle_variance: Angle = Field(
         default=20.0,
@@ -73,12 +75,13 @@ class Pattern(Model):
     )
     reach: Positive | None = Field(
         default=None,
-        description="How far cracks grow at most [m], above 0: a creep crack that does not cross the pane. Left "
-        "out, to the border.",
+        description="How far cracks grow at most [m], above 0: a creep crack that does not cross the pane. "
+        "Left out, to the border.",
     )
     toward: Number | None = Field(
         default=None,
-        description="Direction that cracks bend to [degrees] counter-clockwise from the width; left out, outward.",
+        description="Direction that cracks bend to [degrees] counter-clockwise from the width; left out, "
+        "outward.",
     )
 
     @model_validator(mode="after")
