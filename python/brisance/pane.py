@@ -144,7 +144,7 @@ def _rectangle(width: float, height: float) -> list[Array]:
 
 
 def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
-    """Rings as arrays: the first turned counter-clockwise, others clockwise, a repeated last point dropped."""
+    """Rings as arrays: the first counter-clockwise, others clockwise, a repeated last point dropped."""
     rings = []
     for index, ring in enumerate(outline):
         points = np.asarray(ring, dtype=float)
