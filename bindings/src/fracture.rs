@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use engine::fracture::{
-    Fineness, Glass, Grown, Pattern as EnginePattern, Pieces as EnginePieces, Recipe, Shape,
+    Cracks, Fineness, Glass, Grown, Pattern as EnginePattern, Pieces as EnginePieces, Recipe, Shape,
 };
 use engine::geometry::Polygon;
 use glam::{DVec2, DVec3};
@@ -26,10 +26,32 @@ pub struct FracturePattern {
     seconds: f64,
 }
 
+/// Grows the cracks of a finished pattern once more, alone, to see what they and what the fragments cost: wall-clock
+/// times of both halves of the work [s].
+#[pyfunction]
+pub fn fracture_stages(
+    py: Python<'_>,
+    outline: Vec<PyReadonlyArray2<'_, f64>>,
+    pattern: &FracturePattern,
+) -> PyResult<(f64, f64)> {
+    let mut pane = Polygon::default();
+    for ring in &outline {
+        pane.push_ring(points(ring, "outline")?);
+    }
+    py.detach(|| {
+        let started = Instant::now();
+        let mut go_on = || ControlFlow::Continue(());
+        let cracks = Cracks::grow(&pane, &pattern.grown.settings, &mut go_on).map_err(refused)?;
+        let grown = started.elapsed();
+        drop(cracks.into_pattern());
+        Ok((grown.as_secs_f64(), (started.elapsed() - grown).as_secs_f64()))
+    })
+}
+
 /// Grows the cracks of a pane. `outline` is a list of rings (n, 2), the outer one counter-clockwise and holes
 /// clockwise; give `pieces` or `critical_length`. Angles in radians.
 #[pyfunction]
-#[pyo3(signature = (*, outline, glass, pieces, critical_length, seeds, shape, literal, fork_angle, fork_variance,
+#[pyo3(signature = (*, outline, glass, pieces, critical_length, seeds, starts, shape, literal, fork_angle, fork_variance,
     wiggle_probability, wiggle_variance, wiggle_spacing, rings, reach, toward, seed))]
 #[allow(clippy::too_many_arguments)]
 pub fn fracture(
@@ -39,6 +61,7 @@ pub fn fracture(
     pieces: Option<usize>,
     critical_length: Option<f64>,
     seeds: PyReadonlyArray2<'_, f64>,
+    starts: Option<usize>,
     shape: &str,
     literal: bool,
     fork_angle: f64,
@@ -67,6 +90,7 @@ pub fn fracture(
         glass: choose("glass", glass, &kinds)?,
         fineness,
         seeds: points(&seeds, "seeds")?,
+        starts,
         shape: choose("shape", shape, &shapes)?,
         literal,
         fork_angle,

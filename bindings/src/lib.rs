@@ -28,10 +28,11 @@ mod _engine {
         reflection_coefficient,
     };
     #[pymodule_export]
-    use super::fracture::{FracturePattern, Pieces, crack_time, fracture};
+    use super::fracture::{FracturePattern, Pieces, crack_time, fracture, fracture_stages};
     #[pymodule_export]
     use super::material::{
-        critical_length, energy_release, material_facts, materials, mean_fragment_area, mean_fragment_velocity,
+        critical_length, energy_release, material_facts, materials, mean_fragment_area,
+        mean_fragment_velocity,
     };
     #[pymodule_export]
     use super::recording::Recording;

@@ -22,6 +22,7 @@ __all__ = [
     "explosives",
     "face_history",
     "fracture",
+    "fracture_stages",
     "front_radius",
     "mass_properties",
     "material",
@@ -198,6 +199,7 @@ def fracture(
     pieces: int | None,
     critical_length: float | None,
     seeds: NDArray[float64],
+    starts: int | None,
     shape: Literal["segment", "cross", "star"],
     literal: bool,
     fork_angle: float,
@@ -211,6 +213,9 @@ def fracture(
     seed: int,
 ) -> FracturePattern: ...
 
+def fracture_stages(
+    outline: list[NDArray[float64]], pattern: FracturePattern
+) -> tuple[float, float]: ...
 @final
 class FracturePattern:
     def __len__(self) -> int: ...

@@ -119,6 +119,7 @@ def fracture(
             pieces=pieces,
             critical_length=pattern.critical_length,
             seeds=low + shares * (high - low),
+            starts=pattern.starts,
             shape=pattern.shape,
             literal=pattern.literal,
             fork_angle=math.radians(pattern.fork_angle),

@@ -72,6 +72,9 @@ pub struct Recipe {
     pub fineness: Fineness,
     /// Where cracks start [m]; none: in the middle of the pane.
     pub seeds: Vec<DVec2>,
+    /// In about how many places cracks start, seeds and flaws spread over the pane together; left out, in the
+    /// seeds alone unless pieces would become needles.
+    pub starts: Option<usize>,
     /// How they start.
     pub shape: Shape,
     /// The thesis's own rule of forking, and nothing that it does not have.
@@ -103,6 +106,7 @@ impl Default for Recipe {
             glass: Glass::Annealed,
             fineness: Fineness::Pieces(500),
             seeds: Vec::new(),
+            starts: None,
             shape: Shape::Star,
             literal: false,
             fork_angle: 25.0_f64.to_radians(),
@@ -132,7 +136,7 @@ type Observer<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 /// More pieces than this from one nucleus become needles: then cracks start at flaws all over the pane as well.
 const MOST_PER_NUCLEUS: usize = 1500;
 /// Pieces from each flaw then.
-const PER_FLAW: f64 = 120.0;
+const PER_FLAW: usize = 120;
 /// A count of pieces this near to what was asked for is good enough.
 const NEAR_ENOUGH: f64 = 0.05;
 /// Patterns grown at most to find a count.
@@ -173,7 +177,8 @@ impl Recipe {
         }
     }
 
-    /// Settings for a critical length; `pieces`, where it is known, decides how many flaws crack as well.
+    /// Settings for a critical length; `pieces`, where it is known, decides how many flaws crack as well: see
+    /// [`starts_for`](Self::starts_for).
     ///
     /// # Errors
     /// A critical length that is not greater than 0.
@@ -183,10 +188,8 @@ impl Recipe {
         let dice = self.glass == Glass::Tempered && !self.literal;
         let wanted = if dice {
             outline.area() / (2.0 * critical_length * critical_length)
-        } else if pieces > MOST_PER_NUCLEUS * seeds.len() {
-            pieces as f64 / PER_FLAW
         } else {
-            0.0
+            self.starts_for(pieces) as f64
         };
         let nuclei = self.nuclei(outline, &seeds, wanted, dice);
         let grain = grain(outline, nuclei.len(), critical_length, dice);
@@ -224,6 +227,12 @@ impl Recipe {
         })
     }
 
+    /// In how many places cracks start for a count of pieces; 0 where the seeds are enough.
+    pub fn starts_for(&self, pieces: usize) -> usize {
+        let needles = pieces > MOST_PER_NUCLEUS * self.seeds.len().max(1);
+        self.starts.unwrap_or(if needles { pieces / PER_FLAW } else { 0 })
+    }
+
     fn grow_with(
         &self,
         outline: &Polygon,
@@ -247,7 +256,7 @@ impl Recipe {
     fn search(&self, outline: &Polygon, count: usize, observer: Observer) -> Result<Grown> {
         let wanted = libm::log(count as f64);
         let side = longer_side(outline);
-        let flaws = if count > MOST_PER_NUCLEUS { count as f64 / PER_FLAW } else { 1.0 };
+        let flaws = self.starts_for(count).max(self.seeds.len()).max(1) as f64;
         let share = libm::sqrt(outline.area() / flaws);
         let mut length = (share * flaws / count as f64).min(side);
         let (mut low, mut high) = (f64::NEG_INFINITY, libm::log(side));

@@ -23,6 +23,6 @@ mod settings;
 
 pub use clock::CrackClock;
 pub use glass::{Fineness, Glass, Grown, Recipe, Shape};
-pub use pattern::{Crack, Fragment, Pattern, Stopper};
+pub use pattern::{Crack, Cracks, Fragment, Pattern, Stopper};
 pub use pieces::Pieces;
 pub use settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, StressField, Wiggle};

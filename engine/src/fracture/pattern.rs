@@ -44,6 +44,41 @@ pub struct Pattern {
     faces: Faces,
 }
 
+/// Cracks that have grown, before their fragments are known: the first half of the work.
+#[derive(Debug)]
+pub struct Cracks<'a> {
+    traces: Traces,
+    settings: &'a Settings,
+    area: f64,
+}
+
+impl<'a> Cracks<'a> {
+    /// Grows cracks in a pane; see [`Pattern::grow_observed`].
+    ///
+    /// # Errors
+    /// Those of [`Pattern::grow_observed`].
+    pub fn grow(
+        outline: &Polygon,
+        settings: &'a Settings,
+        observer: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Self> {
+        outline::check(outline)?;
+        settings.validate()?;
+        fits(outline, settings)?;
+        let traces = Growth::new(outline, settings).finish(observer)?;
+        Ok(Self { traces, settings, area: outline.area() })
+    }
+
+    /// Finds the fragments.
+    pub fn into_pattern(mut self) -> Pattern {
+        let cracks = cracks(&self.traces, self.settings);
+        let faces = graph::faces(&mut self.traces, self.settings);
+        let pattern = Pattern { cracks, faces };
+        debug_assert!(pattern.fills(self.area), "fragments do not fill the pane");
+        pattern
+    }
+}
+
 /// One fragment of a pattern.
 #[derive(Debug, Clone, Copy)]
 pub struct Fragment<'a> {
@@ -75,15 +110,7 @@ impl Pattern {
         settings: &Settings,
         observer: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Self> {
-        outline::check(outline)?;
-        settings.validate()?;
-        fits(outline, settings)?;
-        let mut traces = Growth::new(outline, settings).finish(observer)?;
-        let cracks = cracks(&traces, settings);
-        let faces = graph::faces(&mut traces, settings);
-        let pattern = Self { cracks, faces };
-        debug_assert!(pattern.fills(outline.area()), "fragments do not fill the pane");
-        Ok(pattern)
+        Ok(Cracks::grow(outline, settings, observer)?.into_pattern())
     }
 
     /// How many fragments there are.
@@ -110,6 +137,11 @@ impl Pattern {
     /// All vertices [m]; fragments name them by number.
     pub fn vertices(&self) -> &[DVec2] {
         &self.faces.vertices
+    }
+
+    /// What the arrays hold, in bytes, without spare room.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.cracks[..]) + self.faces.bytes()
     }
 
     fn fills(&self, area: f64) -> bool {
@@ -158,6 +190,15 @@ impl<'a> Fragment<'a> {
 }
 
 impl Faces {
+    fn bytes(&self) -> usize {
+        size_of_val(&self.vertices[..])
+            + size_of_val(&self.rings[..])
+            + size_of_val(&self.on_border[..])
+            + size_of_val(&self.ring_ends[..])
+            + size_of_val(&self.face_ends[..])
+            + size_of_val(&self.closed_at[..])
+    }
+
     fn ring_range(&self, ring: usize) -> core::ops::Range<usize> {
         let start = if ring == 0 { 0 } else { self.ring_ends[ring - 1] as usize };
         start..self.ring_ends[ring] as usize

@@ -36,6 +36,11 @@ class Pattern(Model):
         description="Where cracks start, as shares of width and height from the lower left corner, 0 to 1; "
         "left out, in the middle.",
     )
+    starts: Count | None = Field(
+        default=None,
+        description="In about how many places cracks start, seeds and flaws spread over the pane together, 1 or "
+        "more; left out, in the seeds alone up to 1 500 pieces each, and beyond at a flaw for every 120.",
+    )
     shape: Literal["segment", "cross", "star"] = Field(
         default="star",
         description="How a crack starts: a short line (as in the thesis), an X, or a star of nine arms "
