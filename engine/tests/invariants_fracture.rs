@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use brisance_engine::fracture::{
-    Depth, Forking, Guide, Nucleus, Order, Pattern, Rings, Settings, StressField, Wiggle, outline,
+    Depth, Forking, Guide, Nucleus, Order, Pattern, Pieces, Rings, Settings, StressField, Wiggle, outline,
 };
 use brisance_engine::geometry::Polygon;
 use brisance_engine::random;
@@ -229,6 +229,17 @@ fn check_planar(pattern: &Pattern, case: u64) {
     }
 }
 
+/// No fragment has a vertex twice: none hangs together by a point, or holds a crack that parts nothing.
+fn check_rings(pattern: &Pattern, case: u64) {
+    for fragment in pattern.fragments() {
+        let mut vertices: Vec<u32> = fragment.rings().flatten().copied().collect();
+        let count = vertices.len();
+        vertices.sort_unstable();
+        vertices.dedup();
+        assert_eq!(vertices.len(), count, "case {case}: a fragment comes by a vertex twice");
+    }
+}
+
 #[test]
 fn fragments_fill_the_pane_without_overlap_and_share_every_crack() {
     let mut pieces = 0;
@@ -250,6 +261,10 @@ fn fragments_fill_the_pane_without_overlap_and_share_every_crack() {
         assert!((sum / pane.area() - 1.0).abs() < 1e-9, "case {case}: {sum} of {}", pane.area());
         check_sharing(&pattern, case);
         check_planar(&pattern, case);
+        check_rings(&pattern, case);
+        // Whatever is not simple has no triangulation.
+        let solids = Pieces::of(&pattern, 1e-3, 2500.0).unwrap_or_else(|e| panic!("case {case}: {e}"));
+        assert_eq!(solids.len(), pattern.len());
     }
     assert!(pieces as u64 > 20 * cases(), "the cases are too easy: {pieces} pieces");
 }

@@ -276,6 +276,40 @@ fn cracks_that_close_inside_a_fragment_make_a_hole_in_it() {
     assert_eq!(pattern.fragments().map(|f| f.rings().count()).max(), Some(2));
 }
 
+/// Four cracks that chase each other round a square of side 0.2, which hangs on nothing.
+fn pinwheel(at: DVec2) -> Vec<Nucleus> {
+    [(0.0, 0.1, 0.0), (0.3, 0.0, FRAC_PI_2), (0.4, 0.3, PI), (0.1, 0.4, -FRAC_PI_2)]
+        .map(|(x, y, angle)| Nucleus { position: at + DVec2::new(x, y), arms: vec![angle], start: 0.0 })
+        .to_vec()
+}
+
+#[test]
+fn a_crack_from_one_hole_to_another_parts_nothing() {
+    // Two squares, and later a crack from between them that ends on both.
+    let between = Nucleus { position: DVec2::new(0.5, 0.37), arms: vec![0.0, PI], start: 0.31 };
+    let nuclei = [pinwheel(DVec2::new(0.05, 0.15)), pinwheel(DVec2::new(0.55, 0.15)), vec![between]].concat();
+    let settings = Settings { nuclei, reach: Some(0.32), ..arms(&[]) };
+    let pattern = grow(&settings);
+    let mut sizes = areas(&pattern);
+    sizes.sort_by(f64::total_cmp);
+    assert_eq!(sizes.len(), 3);
+    assert!((sizes[0] - 0.04).abs() < 1e-12 && (sizes[2] - 0.92).abs() < 1e-12, "{sizes:?}");
+    assert_eq!(pattern.fragments().map(|f| f.rings().count()).max(), Some(3));
+    assert!(Pieces::of(&pattern, 1e-3, 2500.0).is_ok());
+}
+
+#[test]
+fn petals_that_meet_in_their_nucleus_come_apart_as_simple_pieces() {
+    // Branches of neighbouring arms meet, but nothing reaches the border.
+    let nuclei = vec![Nucleus::star(MIDDLE, 0.1, 6)];
+    let settings = Settings { nuclei, reach: Some(0.35), ..literal(0.02, 60.0, 0.0) };
+    let pattern = grow(&settings);
+    assert!(pattern.len() > 3, "{}", pattern.len());
+    assert!((areas(&pattern).iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    let solids = Pieces::of(&pattern, 1e-3, 2500.0).unwrap();
+    assert_eq!(solids.len(), pattern.len());
+}
+
 /// Median over fragments of the root of the ratio of their principal second moments: length over width.
 fn median_aspect(pattern: &Pattern) -> f64 {
     let mut polygon = Polygon::default();

@@ -51,6 +51,9 @@ struct Graph {
     next: Vec<u32>,
 }
 
+/// How far what only touches is moved apart, as a share of its shortest side there.
+const APART: f64 = 1e-6;
+
 /// A closed walk along half-edges.
 struct Loop {
     start: u32,
@@ -61,8 +64,8 @@ struct Loop {
 
 /// The faces that traces bound, in a fixed order.
 pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
-    let graph = Graph::new(traces, settings);
-    let (loops, loop_of) = graph.loops();
+    let mut graph = Graph::new(traces, settings);
+    let (loops, loop_of) = graph.part();
     let holes = graph.holes(&loops, &loop_of);
     let mut faces = Faces::default();
     for (index, walk) in loops.iter().enumerate() {
@@ -97,19 +100,85 @@ impl Graph {
             let cut = || pair[1].at + settings.delay(traces.vertices[to as usize]);
             edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { cut() } });
         }
-        let mut graph = Self {
+        Self {
             vertices: core::mem::take(&mut traces.vertices),
             edges,
             borders,
             leaving: Vec::new(),
             first: Vec::new(),
             next: Vec::new(),
-        };
-        let dangling = graph.dangling();
-        graph.list_leaving(&dangling);
-        graph.order_leaving();
-        graph.link();
-        graph
+        }
+    }
+
+    /// Every walk round a face and for each half-edge the one it belongs to, once only such edges are left as part
+    /// one face from another, and no walk comes by the same vertex twice: every face is then a simple polygon.
+    fn part(&mut self) -> (Vec<Loop>, Vec<u32>) {
+        let mut gone = self.dangling();
+        loop {
+            self.list_leaving(&gone);
+            self.order_leaving();
+            self.link();
+            let (loops, loop_of) = self.loops();
+            let bridges = (0..self.edges.len()).filter(|&e| !gone[e] && loop_of[2 * e] == loop_of[2 * e + 1]);
+            let bridges: Vec<usize> = bridges.collect();
+            bridges.iter().for_each(|&edge| gone[edge] = true);
+            if bridges.is_empty() && !self.split_pinches(&loop_of) {
+                return (loops, loop_of);
+            }
+        }
+    }
+
+    /// Takes apart what hangs together by a single vertex, as petals do at a nucleus: each gets a vertex of its own,
+    /// a hair's breadth into it. Returns whether there was any.
+    fn split_pinches(&mut self, loop_of: &[u32]) -> bool {
+        let mut found = false;
+        for vertex in 0..self.first.len() - 1 {
+            let fan = &self.leaving[self.first[vertex] as usize..self.first[vertex + 1] as usize];
+            if fan.len() < 4 {
+                continue;
+            }
+            // Between each half-edge and the next lies the face of its walk: where one face lies twice, the
+            // half-edges from one place to the other touch the rest in this vertex alone.
+            let same = |&(i, j): &(usize, usize)| loop_of[fan[i] as usize] == loop_of[fan[j] as usize];
+            let pairs = (0..fan.len()).flat_map(|i| (i + 1..fan.len()).map(move |j| (i, j)));
+            let Some((i, j)) = pairs.into_iter().find(same) else { continue };
+            let inner = fan[i + 1..=j].to_vec();
+            let outer: Vec<u32> = fan[j + 1..].iter().chain(&fan[..=i]).copied().collect();
+            let fixed = |group: &[u32]| group.iter().any(|&half| (half as usize / 2) < self.borders);
+            let moved = match (fixed(&inner), fixed(&outer)) {
+                (true, _) => outer,
+                (_, true) => inner,
+                _ if self.span(&inner) <= self.span(&outer) => inner,
+                _ => outer,
+            };
+            self.move_apart(vertex as u32, &moved);
+            found = true;
+        }
+        found
+    }
+
+    /// Angle from the first to the last of some half-edges of a fan, counter-clockwise [rad].
+    fn span(&self, fan: &[u32]) -> f64 {
+        let [first, last] = [fan[0], fan[fan.len() - 1]].map(|half| self.heading(half));
+        let angle = libm::atan2(first.perp_dot(last), first.dot(last));
+        if angle < 0.0 { angle + 2.0 * core::f64::consts::PI } else { angle }
+    }
+
+    fn heading(&self, half: u32) -> DVec2 {
+        self.vertices[self.target(half) as usize] - self.vertices[self.origin(half) as usize]
+    }
+
+    /// Gives some half-edges of a vertex's fan a vertex of their own, moved into what they enclose.
+    fn move_apart(&mut self, vertex: u32, fan: &[u32]) {
+        let [first, last] = [fan[0], fan[fan.len() - 1]].map(|half| self.heading(half).normalize());
+        let middle = (first + last).try_normalize().unwrap_or(first.perp());
+        let shortest = fan.iter().map(|&half| self.heading(half).length()).fold(f64::INFINITY, f64::min);
+        let own = self.vertices.len() as u32;
+        self.vertices.push(self.vertices[vertex as usize] + middle * (APART * shortest));
+        for &half in fan {
+            let edge = &mut self.edges[half as usize / 2];
+            *(if half.is_multiple_of(2) { &mut edge.from } else { &mut edge.to }) = own;
+        }
     }
 
     fn origin(&self, half: u32) -> u32 {
