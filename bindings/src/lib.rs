@@ -5,8 +5,11 @@
 
 mod arrays;
 mod blast;
+mod detonation;
+mod hydrocode;
 mod recording;
 mod scene;
+mod structure;
 
 use brisance_engine as engine;
 use pyo3::prelude::*;
@@ -26,7 +29,13 @@ mod _engine {
         reflection_coefficient,
     };
     #[pymodule_export]
+    use super::detonation::{detonation_hugoniot, following_flow, inert_hugoniot, reaction_zone};
+    #[pymodule_export]
+    use super::hydrocode::{hydrocode_case, hydrocode_charge};
+    #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]
     use super::scene::{Scene, mass_properties};
+    #[pymodule_export]
+    use super::structure::{pressure_impulse, structure_reaches, structure_response};
 }

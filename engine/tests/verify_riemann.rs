@@ -40,16 +40,60 @@ fn gases_that_part_too_fast_leave_a_vacuum_and_say_so() {
 #[test]
 fn the_sedov_constant_is_the_published_one() {
     // Kamm and Timmes (2007): energies 0.0673185 (one side of a plane), 0.311357 and 0.851072 bring the shock
-    // to 0.5, 0.75 and 1 at time 1, for γ = 1.4.
+    // to 0.5, 0.75 and 1 at time 1, for γ = 1.4. Their energy of the plane is 4 parts in ten thousand off what
+    // the similarity equations give (next test): their integrand is singular there.
     for (symmetry, energy, radius) in [
         (Symmetry::Plane, 2.0 * 0.0673185, 0.5),
         (Symmetry::Cylindrical, 0.311357, 0.75),
         (Symmetry::Spherical, 0.851072, 1.0),
     ] {
         let blast = Sedov::new(symmetry, 1.4, 1.0, energy).unwrap();
-        assert!(relative(blast.radius(1.0), radius) < 1e-5, "{symmetry:?} {}", blast.radius(1.0));
+        let rounding = if symmetry == Symmetry::Plane { 2e-4 } else { 1e-5 };
+        assert!(relative(blast.radius(1.0), radius) < rounding, "{symmetry:?} {}", blast.radius(1.0));
     }
     assert!(Sedov::new(Symmetry::Plane, 2.5, 1.0, 1.0).is_err());
+}
+
+/// Slopes of velocity, density and pressure, over those of the shock's speed and the gas ahead, in the place
+/// `x` = r/R: mass, momentum and entropy with R growing as a power of time, solved for the three slopes.
+fn similarity(x: f64, [v, g, p]: [f64; 3], j: f64, gamma: f64) -> [f64; 3] {
+    let slowing = -j / 2.0;
+    let away = v - x;
+    let square = gamma * p / g;
+    let spread = (j - 1.0) * v / x;
+    let dv = (slowing * (away * v - 2.0 * p / g) - square * spread) / (square - away * away);
+    let dg = -g * (dv + spread) / away;
+    let dp = -g * (slowing * v + away * dv);
+    [dv, dg, dp]
+}
+
+#[test]
+fn the_sedov_constant_is_that_of_the_similarity_equations() {
+    let gamma = 1.4;
+    for (symmetry, j) in SYMMETRIES.into_iter().zip([1.0, 2.0, 3.0]) {
+        let both = if symmetry == Symmetry::Plane { 2.0 } else { 1.0 };
+        let mut y: [f64; 3] = [2.0 / (gamma + 1.0), (gamma + 1.0) / (gamma - 1.0), 2.0 / (gamma + 1.0)];
+        let (steps, inner) = (20_000, 0.02);
+        let h = -(1.0 - inner) / f64::from(steps);
+        let held = |x: f64, y: [f64; 3]| (0.5 * y[1] * y[0] * y[0] + y[2] / (gamma - 1.0)) * x.powf(j - 1.0);
+        let mut sum = 0.0;
+        for step in 0..steps {
+            let x = 1.0 + h * f64::from(step);
+            let add = |k: [f64; 3], part: f64| [0, 1, 2].map(|i| y[i] + part * h * k[i]);
+            let k1 = similarity(x, y, j, gamma);
+            let k2 = similarity(x + 0.5 * h, add(k1, 0.5), j, gamma);
+            let k3 = similarity(x + 0.5 * h, add(k2, 0.5), j, gamma);
+            let k4 = similarity(x + h, add(k3, 1.0), j, gamma);
+            let next = [0, 1, 2].map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+            sum -= 0.5 * h * (held(x, y) + held(x + h, next));
+            y = next;
+        }
+        // The core holds no motion to speak of, and one pressure.
+        sum += y[2] / (gamma - 1.0) * f64::powf(inner, j) / j;
+        let alpha = both * whole(symmetry) * sum * (2.0 / (j + 2.0)).powi(2);
+        let got = Sedov::new(symmetry, gamma, 1.0, 1.0).unwrap().alpha();
+        assert!(relative(got, alpha) < 1e-5, "{symmetry:?} {got} {alpha}");
+    }
 }
 
 #[test]

@@ -157,6 +157,13 @@ impl ChargeRun {
         Viscosity::new(&cells, ViscositySettings { outer_pressure: Some(self.air.pressure), ..settings })
     }
 
+    /// How far [m] the mesh of [`ChargeRun::viscosity`] must go, so that nothing comes back from its end while
+    /// the wave passes `distances` [m], or until `end` [s].
+    pub fn reach(&self, distances: &[f64], end: f64) -> f64 {
+        let farthest = distances.iter().copied().fold(self.radius(), f64::max);
+        (1.5 * farthest + 40.0 * self.radius()).max(2.0 * end * self.air.sound_speed())
+    }
+
     /// The products in the charge, the means over each cell.
     fn products(&self, radius: f64) -> Result<Cells> {
         let explosive = Explosive::TNT;

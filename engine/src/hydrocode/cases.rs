@@ -21,8 +21,8 @@ pub enum Case {
     Sedov,
 }
 
-/// Internal energy of gas that should be cold, small against that of the motion.
-const COLD_PRESSURE: f64 = 1e-6;
+/// Pressure of gas that should be cold: small against that of the motion.
+pub const COLD_PRESSURE: f64 = 1e-6;
 
 impl Case {
     /// The time at which the solution is usually compared.
