@@ -82,6 +82,56 @@ fn from_z_1_to_10_it_agrees_with_kingery_and_bulmash_as_far_as_stated() {
     }
 }
 
+/// Rows of the stored table: Z and the six columns after it.
+fn stored() -> Vec<Vec<f64>> {
+    let text = include_str!("../data/hydrocode_curves.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    rows.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+#[test]
+fn the_stored_table_is_what_its_settings_give() {
+    // The rows up to Z = 0.4, with the settings that the file's first lines name; seven digits are stored.
+    let run = ChargeRun { product_cells: 400, air_cells: 600, courant: 0.8, ..ChargeRun::default() };
+    assert!(include_str!("../data/hydrocode_curves.csv").contains("400 in the products, 600 in the air"));
+    let rows: Vec<_> = stored().into_iter().filter(|row| row[0] < 0.4).collect();
+    let distances: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    for (row, gauge) in rows.iter().zip(gauges(&run, &distances)) {
+        let computed = [
+            gauge.overpressure,
+            gauge.dynamic_pressure,
+            gauge.front_velocity.unwrap(),
+            gauge.duration.unwrap(),
+            gauge.impulse,
+            gauge.arrival.unwrap(),
+        ];
+        for (stored, computed) in row[1..].iter().zip(computed) {
+            assert!(relative(computed, *stored) < 1e-6, "Z {}: {computed} {stored}", row[0]);
+        }
+    }
+    let coarse = gauges(&coarse(), &[1.0, 10.0]);
+    for gauge in coarse {
+        let row = stored()
+            .into_iter()
+            .min_by(|a, b| (a[0] - gauge.distance).abs().total_cmp(&(b[0] - gauge.distance).abs()));
+        // The nearest row lies up to 4 % away, over which the pressure falls by up to 10 %.
+        assert!(relative(row.unwrap()[1], gauge.overpressure) < 0.12);
+    }
+}
+
+#[test]
+fn the_curve_source_reads_the_stored_table() {
+    let curves = Curves::new(&CurveSource::Hydrocode, Burst::Air).unwrap();
+    for row in stored() {
+        let point = curves.at(row[0]);
+        assert!(relative(point.overpressure, row[1]) < 1e-12);
+        assert!(relative(point.impulse, row[5]) < 1e-12);
+        assert!(relative(curves.arrival_time(row[0]).unwrap(), row[6]) < 1e-12);
+    }
+    assert_eq!(curves.range(), (0.06, 40.0));
+    assert_eq!(Curves::new(&CurveSource::Hydrocode, Burst::Surface).unwrap().energy_factor(), 1.8);
+}
+
 #[test]
 fn finer_meshes_agree() {
     // The front's own quantities between 300 and 600 cells: the scheme's error is a quarter of it.

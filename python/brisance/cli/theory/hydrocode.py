@@ -263,7 +263,7 @@ def paint(picture: Picture, results: dict[str, Any]) -> None:
             axes.plot(since, history["overpressure_pa"] / peak, label=label, linewidth=1.2)
         longest = max(gauge["duration_s"] for gauge in results["gauges"])
         axes.set_xlim(-0.1e3 * longest, 2.5e3 * longest)
-        axes.set_ylim(-1.0, 1.1)
+        axes.set_ylim(-0.4, 1.1)
         axes.set_xlabel("time since arrival [ms]")
         axes.set_ylabel("overpressure / peak")
         axes.legend(fontsize=7)
