@@ -43,6 +43,7 @@ def draw(picture: Picture, data: Table) -> None:
         axes.annotate(label, (x, 0.0), xytext=(5, -14), textcoords="offset points")
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.annotate("$R_{max}$", (0.0, strength), xytext=(4, 4), textcoords="offset points")
+    axes.set_xlim(-0.05 * millimetres[top], 1.12 * millimetres[top])
     axes.set_title("1000 kg, 4 MN/m, yields at 100 kN; 300 kN falling to nothing in 20 ms")
     axes.set_xlabel("displacement [mm]")
     axes.set_ylabel("resistance [kN]")

@@ -75,7 +75,7 @@ def draw(picture: Picture, data: Table) -> None:
 
 FIGURE = Figure(
     name="2.3",
-    title="Figure 2.3  A detonation front by the model of Zeldovich, von Neumann and Döring",
+    title="Figure 2.3  A detonation front and its reaction zone",
     compute=compute,
     draw=draw,
     table=whole,

@@ -23,7 +23,7 @@ def compute() -> Table:
     """Pressure [Pa] of the Hugoniot of TNT's products and of three Rayleigh lines over particle velocity."""
     volume = np.linspace(0.55, 0.995, 300)
     curve = _engine.detonation_hugoniot(relative_volume=volume)
-    velocity = np.concatenate([np.asarray(curve["velocity_m_s"])[::-1]])
+    velocity = np.asarray(curve["velocity_m_s"])[::-1]
     rest, point = curve["density_at_rest_kg_m3"], curve["chapman_jouguet"]
     fronts = {"slower": SLOWER, "touching": point["front_velocity_m_s"], "faster": FASTER}
     table = {

@@ -49,7 +49,7 @@ def draw(picture: Picture, data: Table) -> None:
         below.semilogx(scaled, overpressure / measured, **look)
     above.set_ylabel("peak overpressure [kPa]")
     above.legend()
-    below.set_ylabel("computed / experiment")
+    below.set_ylabel("over experiment")
     below.set_ylim(0.4, 2.1)
     below.set_xlabel("scaled distance Z [m/kg$^{1/3}$]")
     below.set_xlim(0.05, 40.0)
