@@ -63,7 +63,7 @@ impl Listener {
 
     fn watch(&mut self) -> engine::Result<()> {
         self.steps += 1;
-        if self.steps % PATIENCE != 0 {
+        if !self.steps.is_multiple_of(PATIENCE) {
             return Ok(());
         }
         Python::attach(|py| py.check_signals()).map_err(|stop| {

@@ -1,5 +1,5 @@
-"""A user's own blast curves: a CSV file with a header row, read by name of column. Lines that begin with # are
-remarks.
+"""A user's own blast curves: a CSV file with a header row, read by name of column. Lines that begin with #
+are remarks.
 
 Columns: ``scaled_distance_m_kg13`` and ``overpressure_pa``, and any of ``reflected_pressure_pa``,
 ``dynamic_pressure_pa``, ``front_velocity_m_s``, ``duration_s_kg13``, ``impulse_pa_s_kg13``,

@@ -1,8 +1,8 @@
 """The blast curves that ``curves = "hydrocode"`` uses, computed by our own hydrocode.
 
-``write`` makes the table that the engine carries (``engine/data/hydrocode_curves.csv``): one kilogram of TNT in
-free air at sea level, from just outside the charge to 40 m/kg^(1/3). It takes some ten seconds. The same settings
-give the same table, digit for digit, on every machine.
+``write`` makes the table that the engine carries (``engine/data/hydrocode_curves.csv``): one kilogram of TNT
+in free air at sea level, from just outside the charge to 40 m/kg^(1/3). It takes some ten seconds. The same
+settings give the same table, digit for digit, on every machine.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ def write(path: Path) -> None:
     curves = compute(distances())
     lines = [
         "# Blast of 1 kg of TNT in free air at sea level, by the one-dimensional hydrocode of Brisance.",
-        f"# Scheme: godunov. Start: detonation. Cells: {PRODUCT_CELLS} in the products, {AIR_CELLS} in the air. "
-        f"Courant number: {COURANT}.",
+        f"# Scheme: godunov. Start: detonation. Cells: {PRODUCT_CELLS} in the products, {AIR_CELLS} in the "
+        f"air. Courant number: {COURANT}.",
         "# Recompute with: brisance theory hydrocode --curve-table FILE",
         ",".join(curves),
     ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from brisance.figures.figure import Figure, Table, whole
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
 
-STRUCTURE = {"mass": 1000.0, "stiffness": 4e6, "yield_resistance": 1e5, "damping": 3000.0}
-LOAD = {"peak_force": 3e5, "duration": 0.02}
+STRUCTURE: dict[str, Any] = {"mass": 1000.0, "stiffness": 4e6, "yield_resistance": 1e5, "damping": 3000.0}
+LOAD: dict[str, Any] = {"peak_force": 3e5, "duration": 0.02}
 """A mass of a tonne on a spring that yields at 25 mm, and a triangular pulse."""
 
 

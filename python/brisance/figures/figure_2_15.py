@@ -42,12 +42,10 @@ def compute() -> Table:
 def draw(picture: Picture, data: Table) -> None:
     axes = picture.subplots()
     column = {key: np.asarray(values, dtype=float) for key, values in data.items()}
-    for name, label, colour in zip(
-        ("elastic", "plastic"), LIMITS, (style.BLUE, style.ORANGE), strict=True
-    ):
+    for name, label, colour in zip(("elastic", "plastic"), LIMITS, (style.BLUE, style.ORANGE), strict=True):
         impulse, pressure = column[f"impulse_pa_s:{name}"], 1e-3 * column[f"pressure_pa:{name}"]
         axes.loglog(impulse, pressure, color=colour, label=label)
-        look = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 3))}
+        look: dict[str, Any] = {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 3))}
         axes.axvline(column[f"impulse_asymptote_pa_s:{name}"][0], **look)
         axes.axhline(1e-3 * column[f"pressure_asymptote_pa:{name}"][0], **look)
     impulse, pressure = column["impulse_pa_s:charge"], 1e-3 * column["pressure_pa:charge"]

@@ -1,8 +1,8 @@
-"""Figure 2.3: a detonation front with its reaction zone and the flow that follows, as pressure over distance."""
+"""Figure 2.3: a detonation front with its reaction zone and the flow that follows, pressure over distance."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,9 +22,7 @@ REACTION_TIME = 5e-7
 
 def compute() -> Table:
     """Pressure [Pa] over place [m] at one moment: still explosive, reaction zone, following flow."""
-    zone = _engine.reaction_zone(
-        reaction_time=REACTION_TIME, velocity=np.ones(1), progress=[0.0], points=200
-    )
+    zone = _engine.reaction_zone(reaction_time=REACTION_TIME, velocity=np.ones(1), progress=[0.0], points=200)
     end = RUN - float(zone["distance_m"][-1])
     places = np.linspace(0.0, 1.0, 300)
     flow = _engine.following_flow(place=places, products="ideal", geometry="plane")
@@ -55,7 +53,7 @@ def draw(picture: Picture, data: Table) -> None:
     axes.plot(millimetres, gigapascals, color=style.INK)
     spike, end = gigapascals[reacting][-1], gigapascals[reacting][0]
     axes.plot([front, start], [spike, end], "o", color=style.ORANGE, markersize=5)
-    note = {"textcoords": "offset points", "va": "center"}
+    note: dict[str, Any] = {"textcoords": "offset points", "va": "center"}
     axes.annotate("von Neumann spike", (front, spike), xytext=(8, 0), **note)
     axes.annotate("Chapman–Jouguet", (start, end), xytext=(-8, 6), ha="right", **note)
     axes.annotate("D →", (front, 0.5 * spike), xytext=(8, 0), **note)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from brisance import _engine
 from brisance.figures import style
@@ -18,7 +19,7 @@ OVERDRIVEN = 1.12
 """Front velocity of the upper line, over that of Chapman and Jouguet."""
 
 
-def zone(front_velocity: float | None, velocity: np.ndarray) -> dict[str, np.ndarray]:
+def zone(front_velocity: float | None, velocity: NDArray[np.float64]) -> dict[str, Any]:
     """The reaction zone of TNT as an ideal gas behind a front [m/s]; None: Chapman and Jouguet's."""
     return _engine.reaction_zone(
         reaction_time=1e-7,
@@ -80,7 +81,9 @@ def draw(picture: Picture, data: Table) -> None:
     axes.legend()
 
 
-def crossing(velocity: np.ndarray, line: np.ndarray, curve: np.ndarray) -> tuple[float, float]:
+def crossing(
+    velocity: NDArray[np.float64], line: NDArray[np.float64], curve: NDArray[np.float64]
+) -> tuple[float, float]:
     """The first place where a line from below meets a curve."""
     at = int(np.argmax(line > curve))
     before, after = curve[at - 1] - line[at - 1], curve[at] - line[at]

@@ -1,5 +1,5 @@
-"""Figure 2.7: three closed formulas for the peak overpressure, and our hydrocode, against the curves fitted to
-experiments.
+"""Figure 2.7: three closed formulas for the peak overpressure, and our hydrocode, against the curves fitted
+to experiments.
 """
 
 from __future__ import annotations

@@ -152,6 +152,10 @@ def paint(picture: Picture, results: dict[str, Any]) -> None:
     if "cj_pressure_pa" in results:
         at = 1e-9 * results["cj_pressure_pa"]
         left.plot([0.0, 1e-3 * results["cj_particle_velocity_m_s"]], [0.0, at], color=style.ORANGE)
-        right.plot([1e3 / results["density_at_rest_kg_m3"], 1e3 / results["cj_density_kg_m3"]], [0.0, at], color=style.ORANGE)
+        right.plot(
+            [1e3 / results["density_at_rest_kg_m3"], 1e3 / results["cj_density_kg_m3"]],
+            [0.0, at],
+            color=style.ORANGE,
+        )
         left.plot([1e-3 * results["cj_particle_velocity_m_s"]], [at], "o", color=style.INK, label="CJ")
         left.legend()

@@ -90,7 +90,8 @@ def hydrocode(
     ] = None,
     courant: Annotated[float | None, typer.Option(help="Courant number, above 0 and up to 1.")] = None,
     end: Annotated[
-        float | None, typer.Option(metavar="S", help="Time of the profile; a charge's gauges may ask for more.")
+        float | None,
+        typer.Option(metavar="S", help="Time of the profile; a charge's gauges may ask for more."),
     ] = None,
     start: Annotated[Start, typer.Option(help="Products of the charge at first.")] = Start.detonation,
     quadratic: Annotated[float, typer.Option(help="Quadratic artificial viscosity, for a case.")] = 1.4,
@@ -118,7 +119,9 @@ def hydrocode(
     if plot is not None:
         check_picture(plot)
     if [mass is not None, case is not None, curve_table is not None].count(True) != 1:
-        raise InputError("choose one: a charge (--mass), a problem (--case) or the blast curves (--curve-table).")
+        raise InputError(
+            "choose one: a charge (--mass), a problem (--case) or the blast curves (--curve-table)."
+        )
     if cells is not None and cells < 10:
         raise InputError(f"--cells must be 10 or more, not {cells}.")
     if curve_table is not None:
@@ -130,9 +133,7 @@ def hydrocode(
     with input_errors():
         if case is not None:
             chosen = geometry or Geometry.plane
-            results = case_results(
-                case, chosen, scheme, cells, courant, end, (quadratic, linear), distance
-            )
+            results = case_results(case, chosen, scheme, cells, courant, end, (quadratic, linear), distance)
         else:
             chosen = geometry or Geometry.spherical
             results = charge_results(
@@ -252,8 +253,8 @@ def paint(picture: Picture, results: dict[str, Any]) -> None:
     from brisance.figures import style
 
     profile = results["profiles"]
-    names = ("density_kg_m3", "velocity_m_s", "pressure_pa")
-    labels = ("density [kg/m³]", "velocity [m/s]", "pressure [Pa]")
+    names = ["density_kg_m3", "velocity_m_s", "pressure_pa"]
+    labels = ["density [kg/m³]", "velocity [m/s]", "pressure [Pa]"]
     if results["gauges"]:
         axes, *others = picture.subplots(1, 3)
         for gauge, history in zip(results["gauges"], results["histories"], strict=True):

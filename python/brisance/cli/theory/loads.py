@@ -33,9 +33,7 @@ class BlastLoad:
     decay: float
 
 
-def blast_loads(
-    charge: float, distances: list[float], *, reflected: bool, source: str
-) -> list[BlastLoad]:
+def blast_loads(charge: float, distances: list[float], *, reflected: bool, source: str) -> list[BlastLoad]:
     """The pulses of ``charge`` kg of TNT at distances [m]: reflected head-on, or as the wave passes."""
     for flag, values in (("--charge", [charge]), ("--distance", distances)):
         for value in values:
@@ -49,9 +47,7 @@ def blast_loads(
     prefix = "reflected_" if reflected else ""
     peaks = curves["reflected_pressure_pa" if reflected else "overpressure_pa"]
     impulses = curves[f"{prefix}impulse_pa_s"]
-    return [
-        _load(*values) for values in zip(distances, peaks, curves["duration_s"], impulses, strict=True)
-    ]
+    return [_load(*values) for values in zip(distances, peaks, curves["duration_s"], impulses, strict=True)]
 
 
 def _load(distance: float, peak: Any, duration: Any, impulse: Any) -> BlastLoad:

@@ -54,7 +54,7 @@ def pressure_impulse(
 
     \b
     Example:
-      brisance theory pressure-impulse --mass 1000 --stiffness 4e6 --limit 0.05 --yield-resistance 1e5 --area 9
+      brisance theory pressure-impulse --mass 1000 --stiffness 4e6 --limit 0.05 --yield-resistance 1e5
       brisance theory pressure-impulse --mass 1000 --stiffness 4e6 --limit 0.05 --charge 50 --distance 5 10 20
     """
     from brisance import _engine
@@ -67,7 +67,7 @@ def pressure_impulse(
     if (charge is None) != (not distance):
         raise InputError("--charge and --distance go together.")
     positive("--area", area)
-    structure = {
+    structure: dict[str, Any] = {
         "mass": mass,
         "stiffness": stiffness,
         "damping": damping,
@@ -126,12 +126,8 @@ def paint(picture: Picture, results: dict[str, Any]) -> None:
     axes.axvline(results["impulse_asymptote_pa_s"], color=style.ORANGE, linestyle="--", label="impulsive")
     for load in results["loads"]:
         face = style.PURPLE if load["reaches_limit"] else "white"
-        axes.plot(
-            load["impulse_pa_s"], load["pressure_pa"], "o", markerfacecolor=face, color=style.PURPLE
-        )
-        axes.annotate(
-            f" {load['distance_m']:g} m", (load["impulse_pa_s"], load["pressure_pa"]), va="center"
-        )
+        axes.plot(load["impulse_pa_s"], load["pressure_pa"], "o", markerfacecolor=face, color=style.PURPLE)
+        axes.annotate(f" {load['distance_m']:g} m", (load["impulse_pa_s"], load["pressure_pa"]), va="center")
     axes.set_xlabel("impulse [Pa s]")
     axes.set_ylabel("peak pressure [Pa]")
     axes.legend()

@@ -44,7 +44,9 @@ def sdof(
     charge: Annotated[
         float | None, typer.Option(metavar="KG", help="TNT whose blast is the load; with --distance, --area.")
     ] = None,
-    distance: Annotated[list[float] | None, typer.Option(metavar="M", help="Distance of that charge.")] = None,
+    distance: Annotated[
+        list[float] | None, typer.Option(metavar="M", help="Distance of that charge.")
+    ] = None,
     area: Annotated[float, typer.Option(metavar="M2", help="Area that faces it.")] = 1.0,
     step: Annotated[float | None, typer.Option(metavar="S", help="Time step; chosen if left out.")] = None,
     end: Annotated[
@@ -58,7 +60,7 @@ def sdof(
     \b
     Example:
       brisance theory sdof --mass 1000 --stiffness 4e6 --peak-force 2e5 --duration 0.02
-      brisance theory sdof --mass 1000 --stiffness 4e6 --yield-resistance 1e5 --charge 50 --distance 15 --area 9
+      brisance theory sdof --mass 1000 --stiffness 4e6 --charge 50 --distance 15 --area 9
     """
     from brisance import _engine
     from brisance.cli.curves import check_picture
