@@ -145,7 +145,8 @@ pub fn hydrocode_case<'py>(
 }
 
 /// A charge of TNT from the end of its detonation: what passed each of the distances [m], and the profile in
-/// the end, which comes when the positive phase has passed all of them, or at `end` [s] if that is later.
+/// the end, which comes when the positive phase has passed all of them, or at `end` [s] if that is later. Times
+/// count from detonation at the centre.
 #[pyfunction]
 #[pyo3(signature = (*, mass, distance, geometry="spherical", scheme="godunov", product_cells=None, air_cells=None,
     courant=None, start="detonation", end=0.0, pressure=101_325.0, temperature=288.15))]
@@ -197,6 +198,8 @@ pub fn hydrocode_charge<'py>(
             (record(py, &run, &mut flow, &distances, end)?, profile(py, &flow)?)
         }
     };
+    let since_start: f64 = result.get_item("time_s")?.expect("set above").extract()?;
+    result.set_item("time_s", since_start + run.detonation_time().map_err(refused)?)?;
     result.set_item("charge_radius_m", run.radius())?;
     result.set_item("product_cells", run.product_cells)?;
     result.set_item("air_cells", run.air_cells)?;

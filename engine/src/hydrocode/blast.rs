@@ -267,7 +267,8 @@ impl ChargeRun {
         while flow.time() < end - delay
             || (flow.time() < latest && gauges.iter().any(|gauge| !gauge.is_done()))
         {
-            flow.step(latest)?;
+            let due = if flow.time() < end - delay { end - delay } else { latest };
+            flow.step(due)?;
             for gauge in gauges.iter_mut() {
                 gauge.record(flow);
             }

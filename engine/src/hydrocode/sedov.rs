@@ -76,25 +76,26 @@ impl Sedov {
         (2.0 / (j2 * self.gamma), 4.0 / (j2 * (self.gamma + 1.0)))
     }
 
+    /// How far the parameter `V` lies from its value at the centre, at `place` = r/R.
     fn parameter(&self, place: f64) -> f64 {
         let (centre, shock) = self.ends();
         // The place grows steeply near the centre: search in the logarithm of the distance from it.
         let span = shock - centre;
-        let v = |log: f64| centre + span * libm::exp(log);
+        let v = |log: f64| span * libm::exp(log);
         v(bisect(-600.0, 0.0, |log| self.place(v(log)) - place).min(0.0))
     }
 
-    /// Distance over that of the shock.
-    fn place(&self, v: f64) -> f64 {
-        let (x, a) = (self.factors(v), self.exponents());
+    /// Distance over that of the shock, where the parameter lies `from_centre` from its value at the centre.
+    fn place(&self, from_centre: f64) -> f64 {
+        let (x, a) = (self.factors(from_centre), self.exponents());
         let log = libm::log;
         libm::exp(-a[0] * log(x[0]) - a[2] * log(x[1]) - a[1] * log(x[2]))
     }
 
     /// Distance, velocity, density and pressure over those at the shock.
-    fn shape(&self, v: f64) -> (f64, f64, f64, f64) {
-        let (x, a) = (self.factors(v), self.exponents());
-        let (place, power) = (self.place(v), libm::pow);
+    fn shape(&self, from_centre: f64) -> (f64, f64, f64, f64) {
+        let (x, a) = (self.factors(from_centre), self.exponents());
+        let (place, power) = (self.place(from_centre), libm::pow);
         let density = power(x[1], a[3]) * power(x[2], a[4]) * power(x[3], a[5]);
         let pressure =
             power(x[0], a[0] * self.dimensions) * power(x[2], a[4] - 2.0 * a[1]) * power(x[3], 1.0 + a[5]);
@@ -102,7 +103,8 @@ impl Sedov {
     }
 
     /// `x₁` to `x₄` of Kamm and Timmes: each 1 at the shock.
-    fn factors(&self, v: f64) -> [f64; 4] {
+    fn factors(&self, from_centre: f64) -> [f64; 4] {
+        let v = self.ends().0 + from_centre;
         let (j, gamma) = (self.dimensions, self.gamma);
         let j2 = j + 2.0;
         let b = (gamma + 1.0) / (gamma - 1.0);
@@ -111,8 +113,8 @@ impl Sedov {
         let e = (2.0 + j * (gamma - 1.0)) / 2.0;
         [
             j2 * (gamma + 1.0) / 4.0 * v,
-            // Near the centre `c V − 1` is a small difference, taken from the parameter's own distance.
-            b * c * (v - self.ends().0).max(0.0),
+            // `c V − 1`, a small difference near the centre.
+            b * c * from_centre,
             d * (1.0 - e * v),
             b * (1.0 - c * v / gamma),
         ]
@@ -135,7 +137,7 @@ impl Sedov {
         let (steps, deepest) = (20_000, -60.0);
         let row = |index: i32| {
             let log = deepest * (1.0 - f64::from(index) / f64::from(steps));
-            let (place, f, g, h) = self.shape(centre + (end - centre) * libm::exp(log));
+            let (place, f, g, h) = self.shape((end - centre) * libm::exp(log));
             let kinetic = 0.5 * shock.density * g * (shock.velocity * f) * (shock.velocity * f);
             (libm::pow(place, self.dimensions), kinetic + shock.pressure * h / (self.gamma - 1.0))
         };

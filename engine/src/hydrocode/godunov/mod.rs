@@ -12,88 +12,21 @@
 
 mod columns;
 mod flux;
+mod motion;
 mod reconstruct;
+mod recover;
+mod settings;
 
-use super::mesh::{centre, check_faces, mean_area, volume};
-use super::riemann::{GasState, RiemannProblem};
+use super::mesh::{check_faces, mean_area, volume};
+use super::riemann::GasState;
 use super::{Cells, Scheme};
-use crate::air::Air;
 use crate::detonation::{EquationOfState, Symmetry};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use columns::{Columns, Row};
-use flux::{Fluxes, through_faces, waves, with_the_gas};
+use flux::{Fluxes, through_faces, with_the_gas};
 use reconstruct::{Grid, Place, half_step, half_steps, limited_slopes};
-
-/// Internal energy over kinetic energy below which the former is lost in the rounding of the latter.
-const COLD: f64 = 1e-10;
-
-/// What lies beyond an end of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Boundary {
-    /// A rigid wall, or the centre of symmetry.
-    #[default]
-    Wall,
-    /// More of the same gas: waves leave.
-    Open,
-    /// Still air into which a shock runs; only at the outer end, with [`Motion::Follow`].
-    Front(Air),
-}
-
-/// How the faces move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Motion {
-    /// They do not: Eulerian.
-    #[default]
-    Fixed,
-    /// With the gas: Lagrangian.
-    WithGas,
-    /// Bounds between regions with the gas, a front with the shock, the others in between.
-    Follow,
-}
-
-/// How a run is to be computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GodunovSettings {
-    /// Courant number, above 0 and up to 1: the part of a cell that the fastest wave may cross in a step. More
-    /// is faster and less stable.
-    pub courant: f64,
-    /// Motion of the faces.
-    pub motion: Motion,
-    /// Beyond the first face.
-    pub inner: Boundary,
-    /// Beyond the last face.
-    pub outer: Boundary,
-}
-
-impl Default for GodunovSettings {
-    fn default() -> Self {
-        GodunovSettings { courant: 0.8, motion: Motion::Fixed, inner: Boundary::Wall, outer: Boundary::Wall }
-    }
-}
-
-impl GodunovSettings {
-    fn validate(&self) -> Result<()> {
-        check_courant(self.courant)?;
-        if let Boundary::Front(_) = self.inner {
-            return Err(Error::Malformed("a shock front can only bound the outer end of the mesh".into()));
-        }
-        if let Boundary::Front(air) = self.outer {
-            air.validate()?;
-            if self.motion != Motion::Follow {
-                return Err(Error::Malformed("a mesh bounded by a front must follow it".into()));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Checks a Courant number: above 0 and at most 1.
-pub(super) fn check_courant(courant: f64) -> Result<()> {
-    if courant > 0.0 && courant <= 1.0 {
-        return Ok(());
-    }
-    Err(Error::OutOfRange { what: "Courant number", value: courant, expected: "above 0 and at most 1" })
-}
+pub(super) use settings::check_courant;
+pub use settings::{Boundary, GodunovSettings, Motion};
 
 /// Cells of one gas.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -198,36 +131,6 @@ impl Godunov {
         self.mass.len()
     }
 
-    /// The longest stable step [s].
-    fn stable_step(&self) -> f64 {
-        let mut rate = 0.0_f64;
-        for cell in 0..self.cells() {
-            let width = self.face[cell + 1] - self.face[cell];
-            let (w0, w1) = (self.face_velocity[cell], self.face_velocity[cell + 1]);
-            let velocity = &self.gas.velocity[cell..cell + 3];
-            let (a, b) = ((velocity[1] - w0).abs(), (velocity[1] - w1).abs());
-            let relative = if self.settings.motion == Motion::WithGas {
-                // Faces will go with the gas: it is their closing in on each other that counts, and a third of
-                // a cell is as much as the work done on it may be taken in one piece.
-                1.5 * (velocity[2] - velocity[0]).abs()
-            } else if a > b {
-                a
-            } else {
-                b
-            };
-            let here = (relative + self.sound_speed[cell + 1]) / width;
-            rate = if here > rate { here } else { rate };
-        }
-        if self.symmetry == Symmetry::Spherical {
-            // The ball in the middle has three times the face for its volume that a layer has: at more than
-            // 0.72 of a layer's step the least rounding grows there.
-            let width = self.face[1] - self.face[0];
-            let speed = self.gas.velocity[1].abs() + self.sound_speed[1];
-            rate = rate.max(1.5 * speed / width);
-        }
-        self.settings.courant / rate
-    }
-
     /// Ghost cells: mirror images at walls, copies at open ends, the state behind a front.
     fn set_ghosts(&mut self) {
         let count = self.cells();
@@ -281,56 +184,6 @@ impl Godunov {
         (low, high)
     }
 
-    /// Velocities of the faces over the coming step.
-    fn move_faces(&mut self, step: f64) -> Result<()> {
-        match self.settings.motion {
-            Motion::Fixed => {}
-            // A first guess, for the states half a step on; the faces then go with the contacts found.
-            Motion::WithGas => {
-                let velocity = &self.gas.velocity;
-                for (face, speed) in self.face_velocity.iter_mut().enumerate() {
-                    *speed = 0.5 * (velocity[face] + velocity[face + 1]);
-                }
-            }
-            Motion::Follow => self.follow(step)?,
-        }
-        Ok(())
-    }
-
-    fn follow(&mut self, step: f64) -> Result<()> {
-        let count = self.cells();
-        let mut from = (0, self.face_velocity[0]);
-        for index in 0..self.regions.len() {
-            let bound = self.regions[index].to;
-            let speed = if bound < count {
-                let (left, right) = (self.ends_of(bound - 1, step).1, self.ends_of(bound, step).0);
-                waves(left, right, (self.stiffness[bound], self.stiffness[bound + 1])).contact
-            } else if let Boundary::Front(air) = self.settings.outer {
-                let last = self.ends_of(count - 1, step).1;
-                self.meet_front(&air, last)?
-            } else {
-                0.0
-            };
-            let (start, end) = (self.face[from.0], self.face[bound]);
-            let stretch = (speed - from.1) / (end - start);
-            for face in from.0..=bound {
-                self.face_velocity[face] = from.1 + stretch * (self.face[face] - start);
-            }
-            from = (bound, speed);
-        }
-        Ok(())
-    }
-
-    /// The shock that `last` drives into still air: remembers the state behind it, returns its velocity.
-    fn meet_front(&mut self, air: &Air, last: Row) -> Result<f64> {
-        let left = GasState { density: last.density, velocity: last.velocity, pressure: last.pressure };
-        let still = GasState { density: air.density(), velocity: 0.0, pressure: air.pressure };
-        let problem = RiemannProblem::new(left, still, air.gamma)?;
-        let speed = problem.heads().1;
-        self.front = Some((problem.at(speed * (1.0 - 1e-12)), speed));
-        Ok(speed)
-    }
-
     /// States beyond the ends, for the fluxes through the first and the last face.
     fn set_end_states(&mut self) {
         let count = self.cells();
@@ -364,23 +217,6 @@ impl Godunov {
         }
     }
 
-    /// Nothing flows through the bound between two gases; through a front flows the still air ahead.
-    fn set_bound_fluxes(&mut self) {
-        let count = self.cells();
-        for region in &self.regions {
-            let bound = region.to;
-            let speed = self.face_velocity[bound];
-            if bound < count {
-                let (left, right) = (self.high.row(bound), self.low.row(bound + 1));
-                let push = waves(left, right, (self.stiffness[bound], self.stiffness[bound + 1])).pressure;
-                self.fluxes.set(bound, 0.0, push, push * speed);
-            } else if let Boundary::Front(air) = self.settings.outer {
-                let heat = air.pressure / (air.gamma - 1.0);
-                self.fluxes.set(bound, -speed * air.density(), air.pressure, -speed * heat);
-            }
-        }
-    }
-
     /// Moves the faces and lets the fluxes act.
     fn advance(&mut self, step: f64) {
         for (face, (area, velocity)) in
@@ -408,91 +244,6 @@ impl Godunov {
             let (low, high) = (area[cell], area[cell + 1]);
             self.energy[cell] += step * (low * energy[cell] - high * energy[cell + 1]);
         }
-    }
-
-    /// The gas from mass, momentum and energy; an error where there is none left.
-    fn recover(&mut self) -> Result<()> {
-        let mut healthy = true;
-        for cell in 0..self.cells() {
-            let (low, high) = (self.face[cell], self.face[cell + 1]);
-            let inverse = 1.0 / volume(self.symmetry, low, high);
-            self.centre[cell + 1] = centre(self.symmetry, low, high);
-            let density = self.mass[cell] * inverse;
-            let velocity = self.momentum[cell] / self.mass[cell];
-            let kinetic = 0.5 * density * velocity * velocity;
-            let internal = self.energy[cell] * inverse - kinetic;
-            healthy &= (density > 0.0) & (internal > -0.01 * kinetic) & (high > low);
-            self.gas.density[cell + 1] = density;
-            self.gas.velocity[cell + 1] = velocity;
-            self.gas.energy[cell + 1] = internal;
-        }
-        if !healthy {
-            return Err(self.unhealthy());
-        }
-        self.warm();
-        for region in 0..self.regions.len() {
-            let Region { from, to, state } = self.regions[region];
-            self.set_pressures(from + 1, to + 1, state);
-        }
-        Ok(())
-    }
-
-    /// Gives heat to cells whose internal energy is lost in rounding.
-    fn warm(&mut self) {
-        for cell in 0..self.cells() {
-            let velocity = self.gas.velocity[cell + 1];
-            let least = COLD * 0.5 * self.gas.density[cell + 1] * velocity * velocity;
-            let internal = self.gas.energy[cell + 1];
-            if internal < least {
-                let volume = self.mass[cell] / self.gas.density[cell + 1];
-                self.gas.energy[cell + 1] = least;
-                self.energy[cell] += (least - internal) * volume;
-                self.added_energy += (least - internal) * volume;
-            }
-        }
-    }
-
-    fn set_pressures(&mut self, from: usize, to: usize, state: EquationOfState) {
-        let (density, energy) = (&self.gas.density[from..to], &self.gas.energy[from..to]);
-        let pressure = &mut self.gas.pressure[from..to];
-        let (sound, stiffness) = (&mut self.sound_speed[from..to], &mut self.stiffness[from..to]);
-        match state {
-            EquationOfState::Ideal { gamma } => {
-                for cell in 0..density.len() {
-                    pressure[cell] = (gamma - 1.0) * energy[cell];
-                    sound[cell] = (gamma * pressure[cell] / density[cell]).sqrt();
-                    stiffness[cell] = gamma;
-                }
-            }
-            EquationOfState::Jwl(_) => {
-                for cell in 0..density.len() {
-                    let here = state.pressure(density[cell], energy[cell] / density[cell]);
-                    let square = state.sound_speed_squared(density[cell], here);
-                    pressure[cell] = here;
-                    sound[cell] = square.sqrt();
-                    stiffness[cell] = density[cell] * square / here;
-                }
-            }
-        }
-    }
-
-    fn unhealthy(&self) -> Error {
-        let cell = (0..self.cells())
-            .find(|&cell| {
-                let (density, velocity) = (self.gas.density[cell + 1], self.gas.velocity[cell + 1]);
-                let internal = self.gas.energy[cell + 1];
-                !(density > 0.0 && internal > -0.005 * density * velocity * velocity)
-                    || self.face[cell + 1] <= self.face[cell]
-            })
-            .unwrap_or(0);
-        Error::Malformed(format!(
-            "at {:.6e} s the gas {:.6} m out has a density of {:.3e} kg/m³ and an internal energy of {:.3e} \
-             J/m³: a vacuum has opened or the step is too long; lower the Courant number or use more cells",
-            self.time,
-            self.face[cell],
-            self.gas.density[cell + 1],
-            self.gas.energy[cell + 1]
-        ))
     }
 }
 

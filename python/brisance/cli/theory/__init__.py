@@ -12,7 +12,6 @@ from brisance.cli.theory.sdof import sdof
 app = typer.Typer(
     name="theory",
     help="Structures, detonations and a one-dimensional hydrocode: the theory behind the model.",
-    no_args_is_help=True,
     rich_markup_mode=None,
 )
 app.command("sdof")(sdof)
