@@ -131,12 +131,8 @@ pub fn hydrocode_case<'py>(
         }
     };
     let places: Vec<f64> = result.get_item("x_m")?.expect("set above").extract()?;
-    let exact: Vec<Option<_>> = places
-        .iter()
-        .map(|&x| case.exact(symmetry, x, end))
-        .collect::<engine::Result<_>>()
-        .map_err(refused)?;
-    if let Some(exact) = exact.into_iter().collect::<Option<Vec<_>>>() {
+    if let Some(solution) = case.exact(symmetry).map_err(refused)? {
+        let exact: Vec<_> = places.iter().map(|&x| solution.at(x, end)).collect();
         result.set_item("exact_density_kg_m3", PyArray1::from_iter(py, exact.iter().map(|s| s.density)))?;
         result.set_item("exact_velocity_m_s", PyArray1::from_iter(py, exact.iter().map(|s| s.velocity)))?;
         result.set_item("exact_pressure_pa", PyArray1::from_iter(py, exact.iter().map(|s| s.pressure)))?;

@@ -146,13 +146,14 @@ fn cell_means(symmetry: Symmetry, reach: f64, count: usize, gas: impl Fn(f64) ->
 fn sedov_converges_in_all_symmetries() {
     for symmetry in SYMMETRIES {
         let blast = Sedov::new(symmetry, 1.4, 1.0, 1.0).unwrap();
-        // From the exact solution at half of the radius on, so that the start costs no accuracy.
+        // From the exact solution at half of the radius on, so that the start costs no accuracy. The core is
+        // nearly empty and very hot: a little more gas there keeps its sound slow, and the steps long.
         let (early, late) = (0.2, 1.0);
         let reach = 1.2 * blast.radius(late);
         let errors = [200, 400, 800].map(|count| {
             let start = |r: f64| {
                 let GasState { density, velocity, pressure } = blast.at(r, early);
-                GasState { density: density.max(1e-6), velocity, pressure: pressure.max(1e-6) }
+                GasState { density: density.max(3e-4), velocity, pressure: pressure.max(1e-6) }
             };
             let cells = cell_means(symmetry, reach, count, start);
             let outer = Boundary::Open;

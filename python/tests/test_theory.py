@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -184,6 +189,30 @@ def test_a_bad_load_table_names_the_file(capsys: Capture, tmp_path: Path) -> Non
         assert str(path) in refused(capsys, "sdof", *WALL, "--load", str(path))
     path.write_text("time_s,force_n\n1,1\n0,1\n")
     assert "must rise" in refused(capsys, "sdof", *WALL, "--load", str(path))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no interrupt to one process")
+def test_ctrl_c_ends_a_long_run() -> None:
+    program = (
+        "import sys; from brisance import _engine; from brisance.cli.main import main; "
+        "print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
+    )
+    arguments = ["theory", "hydrocode", "--case", "sod", "--cells", "200000"]
+    with subprocess.Popen(
+        [sys.executable, "-c", program, *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "ready\n"
+            time.sleep(1.0)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert (process.returncode, err, out) == (130, "brisance: stopped.\n", "")
 
 
 @pytest.mark.parametrize("command", ["sdof", "pressure-impulse", "hugoniot", "hydrocode"])

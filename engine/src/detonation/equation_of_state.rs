@@ -3,6 +3,7 @@
 //! Both are of Mie–Grüneisen form with a constant coefficient, `p = a(ρ) + ω ρ e`: the ideal gas with `a` = 0
 //! and `ω` = γ − 1, and the products of a detonation by Jones, Wilkins and Lee.
 
+use crate::charge::TNT_DENSITY;
 use crate::error::{Result, positive};
 
 /// Jones–Wilkins–Lee constants of detonation products.
@@ -28,7 +29,8 @@ pub struct Jwl {
 
 impl Jwl {
     /// Products of cast TNT: B. M. Dobratz, P. C. Crawford, "LLNL Explosives Handbook", UCRL-52997 (1985).
-    pub const TNT: Jwl = Jwl { a: 371.2e9, b: 3.231e9, r1: 4.15, r2: 0.95, omega: 0.30, density: 1630.0 };
+    pub const TNT: Jwl =
+        Jwl { a: 371.2e9, b: 3.231e9, r1: 4.15, r2: 0.95, omega: 0.30, density: TNT_DENSITY };
 
     /// `A e^(−R1 V)` and `B e^(−R2 V)` [Pa] at relative volume `v`.
     fn terms(&self, v: f64) -> (f64, f64) {

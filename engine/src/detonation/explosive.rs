@@ -6,6 +6,7 @@
 //! there are two crossings, the strong one (more pressure) and the weak one.
 
 use super::equation_of_state::{EquationOfState, Jwl};
+use crate::charge::TNT_DENSITY;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::root::bisect;
 
@@ -44,9 +45,9 @@ impl Explosive {
     /// Cast TNT with JWL products: 7.0 GJ per cubic metre. Dobratz and Crawford (1985) give for it a
     /// detonation velocity of 6930 m/s and a Chapman–Jouguet pressure of 21.0 GPa.
     pub const TNT: Explosive = Explosive {
-        density: 1630.0,
+        density: TNT_DENSITY,
         pressure: 0.0,
-        energy: 7.0e9 / 1630.0,
+        energy: 7.0e9 / TNT_DENSITY,
         products: EquationOfState::Jwl(Jwl::TNT),
     };
 

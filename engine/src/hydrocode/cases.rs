@@ -96,18 +96,39 @@ impl Case {
         Ok(cells)
     }
 
-    /// The exact solution at place `x` and `time`; `None` for Shu and Osher's problem, which has none.
-    pub fn exact(self, symmetry: Symmetry, x: f64, time: f64) -> Result<Option<GasState>> {
+    /// The exact solution; `None` for Shu and Osher's problem, which has none.
+    pub fn exact(self, symmetry: Symmetry) -> Result<Option<Exact>> {
         self.check(symmetry)?;
         Ok(match self {
-            Case::Sod => {
-                let problem = RiemannProblem::new(sod(false), sod(true), self.gamma())?;
-                Some(problem.at((x - 0.5) / time))
-            }
+            Case::Sod => Some(Exact::Sod(RiemannProblem::new(sod(false), sod(true), self.gamma())?)),
             Case::ShuOsher => None,
-            Case::Noh => Some(noh(symmetry, x, time)),
-            Case::Sedov => Some(sedov(symmetry)?.at(x, time)),
+            Case::Noh => Some(Exact::Noh(symmetry)),
+            Case::Sedov => {
+                Some(Exact::Sedov(Sedov::new(symmetry, self.gamma(), 1.0, sedov_energy(symmetry))?))
+            }
         })
+    }
+}
+
+/// The exact solution of a problem.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Exact {
+    /// The waves that part from the membrane.
+    Sod(RiemannProblem),
+    /// A shock of constant velocity.
+    Noh(Symmetry),
+    /// The strong blast.
+    Sedov(Sedov),
+}
+
+impl Exact {
+    /// The gas at place `x` and `time`, above 0.
+    pub fn at(&self, x: f64, time: f64) -> GasState {
+        match self {
+            Exact::Sod(problem) => problem.at((x - 0.5) / time),
+            Exact::Noh(symmetry) => noh(*symmetry, x, time),
+            Exact::Sedov(blast) => blast.at(x, time),
+        }
     }
 }
 
@@ -141,8 +162,4 @@ fn sedov_energy(symmetry: Symmetry) -> f64 {
         Symmetry::Cylindrical => 0.311357,
         Symmetry::Spherical => 0.851072,
     }
-}
-
-fn sedov(symmetry: Symmetry) -> Result<Sedov> {
-    Sedov::new(symmetry, 1.4, 1.0, sedov_energy(symmetry))
 }

@@ -46,7 +46,8 @@ pub fn mean_error(flow: &impl Scheme, (from, to): (f64, f64), exact: impl Fn(f64
 
 /// [`mean_error`] of a case from its exact solution.
 pub fn case_error(flow: &impl Scheme, case: Case, symmetry: Symmetry, within: (f64, f64)) -> f64 {
-    mean_error(flow, within, |at| case.exact(symmetry, at, case.end()).unwrap().unwrap().density)
+    let exact = case.exact(symmetry).unwrap().unwrap();
+    mean_error(flow, within, |at| exact.at(at, case.end()).density)
 }
 
 /// Order of convergence from errors at doubling resolution, the coarsest first.

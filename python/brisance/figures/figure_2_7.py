@@ -58,7 +58,7 @@ def draw(picture: Picture, data: Table) -> None:
 
 FIGURE = Figure(
     name="2.7",
-    title="Figure 2.7  Formulas and our hydrocode for the peak overpressure",
+    title="Figure 2.7  Formulas for the peak overpressure",
     compute=compute,
     draw=draw,
     table=whole,
