@@ -38,8 +38,7 @@ fn oscillator(
 
 /// The response of a structure to a pulse or to a table of forces: maxima, and the motion over time.
 ///
-/// Left out, the step is a thousandth of the period or of the pulse, whichever is shorter, and the run ends two
-/// periods after the load.
+/// Left out, the step is a thousandth of the period, and the run ends two periods after the load.
 #[pyfunction]
 #[pyo3(signature = (*, mass, stiffness, damping=0.0, yield_resistance=None, peak_force=0.0, duration=f64::INFINITY,
     pulse="triangle", decay=0.0, table=None, step=None, end=None))]
@@ -62,11 +61,11 @@ pub fn structure_response<'py>(
     let response = match table {
         Some((times, forces)) => {
             let load = LoadTable::new(floats(&times), floats(&forces)).map_err(refused)?;
-            run(py, &oscillator, &load, load.end(), step, end)?
+            run(py, &oscillator, &load, step, end)?
         }
         None => {
             let load = self::pulse(pulse, peak_force, duration, decay)?;
-            run(py, &oscillator, &load, duration, step, end)?
+            run(py, &oscillator, &load, step, end)?
         }
     };
     let result = PyDict::new(py);
@@ -88,12 +87,11 @@ fn run(
     py: Python<'_>,
     oscillator: &Oscillator,
     load: &(impl Load + Sync),
-    duration: f64,
     step: Option<f64>,
     end: Option<f64>,
 ) -> PyResult<Response> {
     let period = oscillator.period();
-    let step = step.unwrap_or(1e-3 * period.min(duration));
+    let step = step.unwrap_or(1e-3 * period);
     let end = end.unwrap_or(load.end() + 2.0 * period);
     py.detach(|| respond(oscillator, load, step, end)).map_err(refused)
 }

@@ -109,6 +109,16 @@ fn a_step_load_flows_to_the_displacement_of_the_work_balance() {
 }
 
 #[test]
+fn a_pulse_much_shorter_than_the_step_is_not_lost() {
+    // A velocity I/M from rest: the crest is I/(M ω).
+    let oscillator = elastic();
+    let load = Pulse::Friedlander { peak: 1e9, duration: 1e-6, decay: 2.0 };
+    let response = respond(&oscillator, &load, 1e-4, 0.1).unwrap();
+    let expected = load.impulse() / (oscillator.mass * oscillator.frequency());
+    assert!(relative(response.max_displacement, expected) < 1e-4);
+}
+
+#[test]
 fn an_impulse_flows_until_its_kinetic_energy_is_strain_energy() {
     let oscillator = yielding();
     let limit = 5.0 * oscillator.yield_displacement();

@@ -172,6 +172,7 @@ def test_both_schemes_agree_on_a_slab(capsys: Capture) -> None:
         (["hydrocode", "--case", "sod", "--courant", "2"], "Courant number is 2"),
         (["hydrocode", "--case", "sod", "--geometry", "spherical"], "plane"),
         (["hydrocode", "--case", "sod", "--cells", "3"], "--cells"),
+        (["hydrocode", "--case", "sod", "--end", "-1"], "--end"),
         (["hydrocode", "--case", "sod", "--distance", "1"], "--distance"),
         (["hydrocode", "--mass", "1", "--distance", "0.01"], "outside the charge"),
         (["hydrocode", "--mass", "1", "--plot", "out.txt"], "--plot"),

@@ -167,14 +167,14 @@ impl<'a, L: Load> Integration<'a, L> {
 }
 
 /// The top of the displacement between two moments if the velocity changes sign there: time [s] and
-/// displacement [m], with velocity and acceleration changing as within an average-acceleration step.
+/// displacement [m].
 pub(super) fn crest(before: &Motion, after: &Motion) -> Option<(f64, f64)> {
     if !(before.velocity > 0.0 && after.velocity <= 0.0) {
         return None;
     }
     let step = after.time - before.time;
     let part = before.velocity / (before.velocity - after.velocity);
-    // Cubic through both ends' displacements and velocities, refined once at its own stationary point.
+    // The top of the cubic through both ends' displacements and velocities.
     let (x0, v0, v1) = (before.displacement, before.velocity * step, after.velocity * step);
     let rise = after.displacement - x0;
     let (c2, c3) = (3.0 * rise - 2.0 * v0 - v1, v0 + v1 - 2.0 * rise);
@@ -191,12 +191,16 @@ pub(super) fn crest(before: &Motion, after: &Motion) -> Option<(f64, f64)> {
     Some((before.time + place * step, x0 + place * (v0 + place * (c2 + c3 * place))))
 }
 
+/// Steps in which the duration of a load is resolved at least.
+const LOADED_STEPS: f64 = 200.0;
+
 /// Most steps that a run may take.
 const MOST_STEPS: f64 = 2e7;
 
 /// The response of `oscillator` to `load` from rest, until `end` [s], in steps of at most `step` [s].
 ///
-/// Steps are shortened so that they end where the load bends. The permanent set is that of the last moment: it
+/// While the load lasts, a step is also at most a two-hundredth of its duration, so that a short pulse is not lost
+/// in one of them; and steps end where the load bends. The permanent set is that of the last moment: it
 /// is final once the structure only swings elastically, for which `end` should leave two periods after the
 /// load.
 pub fn respond(oscillator: &Oscillator, load: &impl Load, step: f64, end: f64) -> Result<Response> {
@@ -214,11 +218,13 @@ pub fn respond(oscillator: &Oscillator, load: &impl Load, step: f64, end: f64) -
     history.push(run.now);
     let (mut highest, mut when) = (0.0, 0.0);
     let breaks = load.breaks();
+    let loaded = if load.end() > 0.0 { step.min(load.end() / LOADED_STEPS) } else { step };
     let bounds = breaks.iter().copied().filter(|at| *at > 0.0 && *at < end).chain([end]);
     for bound in bounds {
         finite("time at which the load bends [s]", bound)?;
         let start = run.now.time;
-        let steps = libm::ceil((bound - start) / step * (1.0 - 1e-12)).max(1.0) as usize;
+        let longest = if bound <= load.end() { loaded } else { step };
+        let steps = libm::ceil((bound - start) / longest * (1.0 - 1e-12)).max(1.0) as usize;
         for index in 1..=steps {
             let time =
                 if index == steps { bound } else { start + (bound - start) * index as f64 / steps as f64 };

@@ -122,6 +122,8 @@ def hydrocode(
         raise InputError(
             "choose one: a charge (--mass), a problem (--case) or the blast curves (--curve-table)."
         )
+    if end is not None:
+        positive("--end", end)
     if cells is not None and cells < 10:
         raise InputError(f"--cells must be 10 or more, not {cells}.")
     if curve_table is not None:
