@@ -39,7 +39,7 @@ fn a_triangle_gives_the_closed_form_to_a_millionth() {
 #[test]
 fn the_integration_is_of_second_order() {
     for duration in [0.01, 0.073, 0.2] {
-        let (coarse, fine) = (error(duration, 1e-3), error(duration, 2.5e-4));
+        let (coarse, fine) = (error(duration, 4e-5), error(duration, 1e-5));
         let order = (coarse / fine).log2() / 2.0;
         assert!((order - 2.0).abs() < 0.1, "{duration}: order {order}");
     }
