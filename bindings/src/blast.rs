@@ -41,6 +41,7 @@ impl Source {
                     ("brode", CurveSource::Brode),
                     ("henrych", CurveSource::Henrych),
                     ("kinney-graham", CurveSource::KinneyGraham),
+                    ("hydrocode", CurveSource::Hydrocode),
                 ],
             ),
             Self::Table(mut columns) => {

@@ -5,10 +5,13 @@
 
 mod arrays;
 mod blast;
+mod detonation;
 mod fracture;
+mod hydrocode;
 mod material;
 mod recording;
 mod scene;
+mod structure;
 
 use brisance_engine as engine;
 use pyo3::prelude::*;
@@ -28,7 +31,11 @@ mod _engine {
         reflection_coefficient,
     };
     #[pymodule_export]
+    use super::detonation::{detonation_hugoniot, following_flow, inert_hugoniot, reaction_zone};
+    #[pymodule_export]
     use super::fracture::{FracturePattern, Pieces, crack_time, fracture, fracture_stages};
+    #[pymodule_export]
+    use super::hydrocode::{hydrocode_case, hydrocode_charge};
     #[pymodule_export]
     use super::material::{
         critical_length, energy_release, material_facts, materials, mean_fragment_area,
@@ -38,4 +45,6 @@ mod _engine {
     use super::recording::Recording;
     #[pymodule_export]
     use super::scene::{Scene, mass_properties};
+    #[pymodule_export]
+    use super::structure::{pressure_impulse, structure_reaches, structure_response};
 }

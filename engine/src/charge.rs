@@ -88,6 +88,8 @@ pub enum CurveSource {
     Henrych,
     /// Kinney and Graham (1985).
     KinneyGraham,
+    /// Brisance's own hydrocode, spherical; computed once and stored.
+    Hydrocode,
     /// The user's own samples, read log–log.
     Table(Arc<CurveTable>),
 }

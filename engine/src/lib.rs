@@ -7,7 +7,8 @@
 //! - [`blast`]: at this point, from this charge: when does the front come, and what is the pulse?
 //! - [`loading`]: what that pulse does to a piece of surface;
 //! - [`dynamics`]: how bodies stand, slide, fly and land;
-//! - [`scene`], [`simulation`], [`recording`]: what a run is given, the run, what it gives back.
+//! - [`scene`], [`simulation`], [`recording`]: what a run is given, the run, what it gives back;
+//! - [`structure`], [`detonation`], [`hydrocode`]: the theory beside the simulation, on `air` and `charge` alone.
 //!
 //! Units are SI throughout: metres, kilograms, seconds, pascals, kelvins, radians. Axes are right-handed with
 //! y up. Pressures are overpressures, above the ambient one, unless said otherwise.
@@ -19,15 +20,19 @@
 pub mod air;
 pub mod blast;
 pub mod charge;
+pub mod detonation;
 pub mod dynamics;
 pub mod error;
 pub mod fracture;
 pub mod geometry;
+pub mod hydrocode;
 pub mod loading;
 pub mod material;
 pub mod random;
 pub mod recording;
+mod root;
 pub mod scene;
 pub mod simulation;
+pub mod structure;
 
 pub use error::{Error, Result};

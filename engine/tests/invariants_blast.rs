@@ -14,6 +14,7 @@ fn source() -> impl Strategy<Value = CurveSource> {
         Just(CurveSource::Brode),
         Just(CurveSource::Henrych),
         Just(CurveSource::KinneyGraham),
+        Just(CurveSource::Hydrocode),
     ]
 }
 

@@ -318,6 +318,7 @@ fn the_curves_go_on_without_a_step_where_a_source_ends() {
         CurveSource::Brode,
         CurveSource::Henrych,
         CurveSource::KinneyGraham,
+        CurveSource::Hydrocode,
         CurveSource::Table(Arc::new(sampled(60))),
     ];
     for source in sources {
@@ -339,9 +340,13 @@ fn the_curves_go_on_without_a_step_where_a_source_ends() {
 
 #[test]
 fn far_out_a_blast_becomes_sound() {
-    for source in
-        [CurveSource::KingeryBulmash, CurveSource::Brode, CurveSource::Henrych, CurveSource::KinneyGraham]
-    {
+    for source in [
+        CurveSource::KingeryBulmash,
+        CurveSource::Brode,
+        CurveSource::Henrych,
+        CurveSource::KinneyGraham,
+        CurveSource::Hydrocode,
+    ] {
         let curves = curves(source, Burst::Air);
         let edge = curves.at(curves.range().1);
         // The slope runs on: one-sided differences agree to their own error, first order in the step.

@@ -13,8 +13,13 @@ use glam::DVec3;
 use published::log_spaced;
 
 fn all_curves() -> Vec<Curves> {
-    let sources =
-        [CurveSource::KingeryBulmash, CurveSource::Brode, CurveSource::Henrych, CurveSource::KinneyGraham];
+    let sources = [
+        CurveSource::KingeryBulmash,
+        CurveSource::Brode,
+        CurveSource::Henrych,
+        CurveSource::KinneyGraham,
+        CurveSource::Hydrocode,
+    ];
     let bursts = [Burst::Air, Burst::Surface];
     sources.iter().flat_map(|source| bursts.map(|burst| Curves::new(source, burst).unwrap())).collect()
 }

@@ -18,21 +18,30 @@ __all__ = [
     "crack_time",
     "critical_length",
     "curves",
+    "detonation_hugoniot",
     "energy_release",
     "explosives",
     "face_history",
+    "following_flow",
     "fracture",
     "fracture_stages",
     "front_radius",
+    "hydrocode_case",
+    "hydrocode_charge",
+    "inert_hugoniot",
     "mass_properties",
     "material",
     "materials",
     "mean_fragment_area",
     "mean_fragment_velocity",
+    "pressure_impulse",
     "pulse",
     "rankine_hugoniot",
+    "reaction_zone",
     "reflection_chart",
     "reflection_coefficient",
+    "structure_reaches",
+    "structure_response",
 ]
 
 def curves(
@@ -92,6 +101,91 @@ def face_history(
     negative_phase: bool = False,
 ) -> NDArray[float64]: ...
 def mass_properties(*, vertices: NDArray[float64], triangles: NDArray[int64]) -> dict[str, Any]: ...
+def structure_response(
+    *,
+    mass: float,
+    stiffness: float,
+    damping: float = 0.0,
+    yield_resistance: float | None = None,
+    peak_force: float = 0.0,
+    duration: float = ...,
+    pulse: str = "triangle",
+    decay: float = 0.0,
+    table: tuple[NDArray[float64], NDArray[float64]] | None = None,
+    step: float | None = None,
+    end: float | None = None,
+) -> dict[str, Any]: ...
+def pressure_impulse(
+    *,
+    mass: float,
+    stiffness: float,
+    limit: float,
+    damping: float = 0.0,
+    yield_resistance: float | None = None,
+    pulse: str = "triangle",
+    decay: float = 0.0,
+    shortest: float = 0.01,
+    longest: float = 100.0,
+    points: int = 41,
+) -> dict[str, Any]: ...
+def structure_reaches(
+    *,
+    mass: float,
+    stiffness: float,
+    limit: float,
+    peak_force: float,
+    duration: float,
+    damping: float = 0.0,
+    yield_resistance: float | None = None,
+    pulse: str = "triangle",
+    decay: float = 0.0,
+) -> bool: ...
+def detonation_hugoniot(
+    *, relative_volume: NDArray[float64], products: str = "jwl", front_velocity: float | None = None
+) -> dict[str, Any]: ...
+def inert_hugoniot(
+    *,
+    velocity: ArrayLike,
+    density: float = 8930.0,
+    sound_speed: float = 3940.0,
+    slope: float = 1.489,
+    curvature: float = 0.0,
+) -> dict[str, NDArray[float64]]: ...
+def reaction_zone(
+    *,
+    reaction_time: float,
+    velocity: NDArray[float64],
+    progress: list[float],
+    front_velocity: float | None = None,
+    points: int = 200,
+) -> dict[str, Any]: ...
+def following_flow(
+    *, place: NDArray[float64], products: str = "jwl", geometry: str = "spherical"
+) -> dict[str, Any]: ...
+def hydrocode_case(
+    *,
+    case: str,
+    geometry: str = "plane",
+    scheme: str = "godunov",
+    cells: int = 400,
+    courant: float | None = None,
+    end: float | None = None,
+    viscosity: tuple[float, float] | None = None,
+) -> dict[str, Any]: ...
+def hydrocode_charge(
+    *,
+    mass: float,
+    distance: NDArray[float64],
+    geometry: str = "spherical",
+    scheme: str = "godunov",
+    product_cells: int | None = None,
+    air_cells: int | None = None,
+    courant: float | None = None,
+    start: str = "detonation",
+    end: float = 0.0,
+    pressure: float = 101325.0,
+    temperature: float = 288.15,
+) -> dict[str, Any]: ...
 
 @final
 class Scene:

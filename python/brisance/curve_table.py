@@ -1,4 +1,5 @@
-"""A user's own blast curves: a CSV file with a header row, read by name of column.
+"""A user's own blast curves: a CSV file with a header row, read by name of column. Lines that begin with #
+are remarks.
 
 Columns: ``scaled_distance_m_kg13`` and ``overpressure_pa``, and any of ``reflected_pressure_pa``,
 ``dynamic_pressure_pa``, ``front_velocity_m_s``, ``duration_s_kg13``, ``impulse_pa_s_kg13``,
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from brisance.errors import InputError
 from brisance.sentences import nearest
 
-BUILT_IN = ("kingery-bulmash", "brode", "henrych", "kinney-graham")
+BUILT_IN = ("kingery-bulmash", "brode", "henrych", "kinney-graham", "hydrocode")
 REQUIRED = ("scaled_distance_m_kg13", "overpressure_pa")
 COLUMNS = (
     *REQUIRED,
@@ -50,7 +51,8 @@ def read_table(path: Path) -> dict[str, NDArray[np.float64]]:
     """The columns of a CSV curve table, checked: numbers above 0, distances that rise, two rows or more."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+            lines = (line for line in file if not line.startswith("#"))
+            rows = [row for row in csv.reader(lines) if any(cell.strip() for cell in row)]
     except FileNotFoundError:
         raise InputError(f"{path} does not exist; give a CSV file of curves.") from None
     except IsADirectoryError:

@@ -17,7 +17,8 @@ from brisance.figures import FIGURES, build, example, figure_3_4, painter, wall
 from brisance.figures.raster import Raster
 from brisance.result import Result
 
-NAMES = ["table-2.1", "2.7", "2.8", "2.9", "2.10", "2.12", "2.13", "2.16"]
+NAMES = ["2.3", "2.4", "2.5", "2.6", "table-2.1", "2.7", "2.8", "2.9", "2.10", "2.12", "2.13"]
+NAMES += ["2.14", "2.15", "2.16"]
 NAMES += ["3.1", "3.2", "3.3", "3.4", "3.5", "3.6", "3.7"]
 SMALL = (420, 320)
 
@@ -67,6 +68,78 @@ def test_table_2_1_has_ten_explosives_and_tnt_is_one() -> None:
     factors = dict(zip(table["explosive"], table["tnt_equivalence"], strict=True))
     assert len(factors) == 10
     assert next(factor for name, factor in factors.items() if name.startswith("TNT")) == 1.0
+
+
+def test_figure_2_3_has_a_spike_a_zone_and_a_following_flow() -> None:
+    data = columns("2.3")
+    place, pressure, zone = data["x_m"], data["pressure_pa"], data["zone"]
+    reacting, following = zone == 1.0, zone == 2.0
+    assert np.all(np.diff(place) >= 0.0)
+    # The spike of a strong detonation in an ideal gas is twice the Chapman–Jouguet pressure, 21.0 GPa of TNT.
+    assert pressure[reacting].max() == pytest.approx(2.0 * pressure[reacting][0], rel=1e-6)
+    assert pressure[reacting][0] == pytest.approx(21.0e9, rel=5e-3)
+    assert pressure[following][-1] == pytest.approx(pressure[reacting][0], rel=1e-3)
+    assert np.all(np.diff(pressure[following]) >= -1.0)
+    # Half of the plane flow is at rest.
+    assert data["velocity_m_s"][following][:150] == pytest.approx(0.0, abs=1.0)
+    assert np.all(pressure[zone == 0.0] == 0.0)
+
+
+def test_figure_2_4_hugoniot_and_line_meet_behind_the_front() -> None:
+    data = columns("2.4")
+    above = data["pressure_pa:rayleigh"] > data["pressure_pa:hugoniot"]
+    velocity = data["velocity_m_s"]
+    assert np.all(above[(velocity > 0.0) & (velocity < 1400.0)])
+    assert not np.any(above[velocity > 1400.0])
+
+
+def test_figure_2_5_lines_miss_touch_and_cross() -> None:
+    data = columns("2.5")
+    curve = data["pressure_pa:hugoniot"]
+    assert np.all(data["pressure_pa:slower"] < curve)
+    gap = 1.0 - data["pressure_pa:touching"] / curve
+    assert np.all(gap >= 0.0) and gap.min() < 1e-4
+    crossings = np.diff(np.sign(data["pressure_pa:faster"] - curve)) != 0
+    assert crossings.sum() == 2
+
+
+def test_figure_2_6_more_reaction_lies_to_the_left_and_higher() -> None:
+    data = columns("2.6")
+    parts = [data[f"pressure_pa:progress_{part}"] for part in ("0", "0.25", "0.5", "0.75", "1")]
+    for less, more in pairwise(parts):
+        assert np.all(more > less)
+    touching = data["pressure_pa:touching"]
+    assert np.all(touching <= parts[-1] * (1.0 + 1e-9)) and np.any(touching > 0.9999 * parts[-1])
+    assert (np.diff(np.sign(data["pressure_pa:overdriven"] - parts[-1])) != 0).sum() == 2
+
+
+def test_figure_2_7_shows_the_hydrocode_near_the_experiments() -> None:
+    data = columns("2.7")
+    scaled = data["scaled_distance_m_kg13"]
+    ratio = data["overpressure_pa:hydrocode"] / data["overpressure_pa:kingery-bulmash"]
+    middle = (scaled > 0.1) & (scaled < 10.0)
+    assert np.abs(ratio[middle] - 1.0).max() < 0.13
+
+
+def test_figure_2_14_rises_flows_and_unloads_at_the_first_slope() -> None:
+    data = columns("2.14")
+    x, resistance = data["displacement_m"], data["resistance_n"]
+    assert resistance.max() == pytest.approx(1e5)
+    top = int(np.argmax(x))
+    assert resistance[: top + 1] == pytest.approx(np.minimum(4e6 * x[: top + 1], 1e5), abs=1.0)
+    slope = np.diff(resistance[top + 1 : top + 100]) / np.diff(x[top + 1 : top + 100])
+    assert slope == pytest.approx(4e6, rel=1e-6)
+
+
+def test_figure_2_15_curves_approach_their_asymptotes_and_the_charge_crosses_them() -> None:
+    data = columns("2.15")
+    for name in ("elastic", "plastic"):
+        impulse, pressure = data[f"impulse_pa_s:{name}"], data[f"pressure_pa:{name}"]
+        assert impulse[0] == pytest.approx(data[f"impulse_asymptote_pa_s:{name}"][0], rel=0.01)
+        assert pressure[-1] == pytest.approx(data[f"pressure_asymptote_pa:{name}"][0], rel=0.03)
+    near, far = data["impulse_pa_s:charge"][0], np.nanmin(data["impulse_pa_s:charge"])
+    assert near > data["impulse_asymptote_pa_s:plastic"][0]
+    assert far < data["impulse_asymptote_pa_s:elastic"][0]
 
 
 def test_figure_2_7_brode_fails_near_and_henrych_in_the_middle() -> None:

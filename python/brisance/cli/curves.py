@@ -74,7 +74,9 @@ def curves(
     burst: Annotated[Burst, typer.Option(help="Free in the air or on the ground.")] = Burst.air,
     source: Annotated[
         str,
-        typer.Option(metavar="NAME", help="kingery-bulmash, brode, henrych, kinney-graham or a CSV file."),
+        typer.Option(
+            metavar="NAME", help="kingery-bulmash, brode, henrych, kinney-graham, hydrocode or a CSV file."
+        ),
     ] = "kingery-bulmash",
     pressure: Annotated[float, typer.Option(metavar="PA", help="Ambient pressure.")] = 101325.0,
     temperature: Annotated[float, typer.Option(metavar="K", help="Ambient temperature.")] = 288.15,

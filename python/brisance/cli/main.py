@@ -19,6 +19,7 @@ from brisance.cli.figure import figure
 from brisance.cli.inspect import inspect
 from brisance.cli.render import render
 from brisance.cli.run import run
+from brisance.cli.theory import app as theory
 from brisance.errors import BrisanceError
 
 SPREAD = ("--distance",)
@@ -30,6 +31,7 @@ _UsageError = cast(type[Exception], typer.BadParameter.__mro__[1])
 app = typer.Typer(name="brisance", add_completion=False, rich_markup_mode=None)
 for command in (run, inspect, curves, render, figure):
     app.command()(command)
+app.add_typer(theory)
 
 
 def _show_version(wanted: bool) -> None:

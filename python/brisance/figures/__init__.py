@@ -12,12 +12,18 @@ from typing import Any
 
 from brisance.errors import InputError
 from brisance.figures import (
+    figure_2_3,
+    figure_2_4,
+    figure_2_5,
+    figure_2_6,
     figure_2_7,
     figure_2_8,
     figure_2_9,
     figure_2_10,
     figure_2_12,
     figure_2_13,
+    figure_2_14,
+    figure_2_15,
     figure_2_16,
     figure_3_1,
     figure_3_2,
@@ -31,6 +37,10 @@ from brisance.figures import (
 from brisance.figures.figure import Figure
 
 _MODULES = (
+    figure_2_3,
+    figure_2_4,
+    figure_2_5,
+    figure_2_6,
     table_2_1,
     figure_2_7,
     figure_2_8,
@@ -38,6 +48,8 @@ _MODULES = (
     figure_2_10,
     figure_2_12,
     figure_2_13,
+    figure_2_14,
+    figure_2_15,
     figure_2_16,
     figure_3_1,
     figure_3_2,

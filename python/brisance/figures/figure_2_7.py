@@ -1,4 +1,6 @@
-"""Figure 2.7: three closed formulas for the peak overpressure, against the curves fitted to experiments."""
+"""Figure 2.7: three closed formulas for the peak overpressure, and our hydrocode, against the curves fitted
+to experiments.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +20,7 @@ FORMULAS = {
     "brode": ("Brode", style.ORANGE, "-"),
     "henrych": ("Henrych", style.BLUE, (0, (5, 2))),
     "kinney-graham": ("Kinney–Graham", style.GREEN, (0, (1.2, 1.6))),
+    "hydrocode": ("our hydrocode", style.PURPLE, "-"),
 }
 
 
@@ -46,7 +49,7 @@ def draw(picture: Picture, data: Table) -> None:
         below.semilogx(scaled, overpressure / measured, **look)
     above.set_ylabel("peak overpressure [kPa]")
     above.legend()
-    below.set_ylabel("formula / experiment")
+    below.set_ylabel("over experiment")
     below.set_ylim(0.4, 2.1)
     below.set_xlabel("scaled distance Z [m/kg$^{1/3}$]")
     below.set_xlim(0.05, 40.0)

@@ -37,7 +37,8 @@ class Charge(Model):
     curves: Annotated[str, Field(min_length=1)] = Field(
         default="kingery-bulmash",
         description="Where its pressures come from: kingery-bulmash (default), brode, henrych, "
-        "kinney-graham, or a CSV file, looked for beside the scene file.",
+        "kinney-graham, hydrocode (computed by Brisance itself), or a CSV file, looked for beside the scene "
+        "file.",
     )
 
     @model_validator(mode="after")

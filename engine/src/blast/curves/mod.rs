@@ -16,6 +16,7 @@
 mod brode;
 pub mod extension;
 mod henrych;
+mod hydrocode;
 mod kingery_bulmash;
 mod kinney_graham;
 mod table;
@@ -143,6 +144,7 @@ impl Curves {
             CurveSource::Brode => (Arc::new(brode::Brode), surface_factor(burst)),
             CurveSource::Henrych => (Arc::new(henrych::Henrych), surface_factor(burst)),
             CurveSource::KinneyGraham => (Arc::new(kinney_graham::KinneyGraham), surface_factor(burst)),
+            CurveSource::Hydrocode => (Arc::new(hydrocode::curves()), surface_factor(burst)),
             CurveSource::Table(samples) => {
                 samples.validate()?;
                 (Arc::new(table::LogTable::new(samples)), surface_factor(burst))
