@@ -6,6 +6,7 @@
 //! - [`charge`]: explosives, TNT equivalence, burst;
 //! - [`blast`]: at this point, from this charge: when does the front come, and what is the pulse?
 //! - [`loading`]: what that pulse does to a piece of surface;
+//! - [`occlusion`]: what shelters behind what, and how much of the blast comes round;
 //! - [`dynamics`]: how bodies stand, slide, fly and land;
 //! - [`scene`], [`simulation`], [`recording`]: what a run is given, the run, what it gives back.
 //!
@@ -23,6 +24,7 @@ pub mod dynamics;
 pub mod error;
 pub mod geometry;
 pub mod loading;
+pub mod occlusion;
 pub mod recording;
 pub mod scene;
 pub mod simulation;

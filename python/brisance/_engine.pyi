@@ -98,6 +98,7 @@ class Scene:
         drag: Literal["flow-relative", "thesis"],
         pulse: _Pulse,
         negative_phase: bool,
+        occlusion: Mapping[str, bool | int | float | str],
         damping_factor: float,
         rotation_factor: float,
     ) -> Self: ...
@@ -122,6 +123,7 @@ class Scene:
         buried: NDArray[bool_],
         assembly: bool,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: float,
         drag_coefficient: float,
@@ -136,12 +138,15 @@ class Scene:
         orientation: tuple[float, float, float, float],
         mass: float,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: float,
         drag_coefficient: float,
         lift_coefficient: float | None,
     ) -> None: ...
     def centres_of_mass(self) -> NDArray[float64]: ...
+    def seen_from(self, charge: int) -> tuple[NDArray[int64], NDArray[float64]]: ...
+    def shelter(self, charge: int) -> dict[str, NDArray[float64]]: ...
     def simulate(
         self, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
     ) -> Recording: ...

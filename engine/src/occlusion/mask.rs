@@ -1,0 +1,160 @@
+//! What each group of bodies hides: its pixels with their depths, and its rim.
+//!
+//! A **group** is what stands together: the bricks of one wall, the fragments of one pane, or a body alone. Its
+//! mask is the union of its members. Stretches of a ray inside the group that are less than [`JOINT`] apart count
+//! as one.
+//!
+//! The **rim** is finer than the pixels: between a covered pixel and a neighbour that is not, it is where the
+//! silhouette itself crosses the way from centre to centre.
+//!
+//! A **small group**, on fewer than [`FEW`] pixels, covers them by the share that makes its solid angle right. If no
+//! ray meets it at all, it goes to the pixel that holds its middle. So nothing is too thin to be seen, and nothing
+//! thin hides more than it covers.
+
+use glam::DVec3;
+
+use super::raster::Hit;
+use super::solid::View;
+use super::sphere_map::SphereMap;
+
+/// Gaps in a group narrower than this are no gaps [m].
+pub const JOINT: f32 = 0.02;
+
+/// Pixels below which a group's solid angle is worked out instead of counted, and a body read at its points.
+pub(super) const FEW: usize = 8;
+
+/// A group on one pixel, from `near` to `far` [m].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry {
+    pub pixel: u32,
+    pub near: f32,
+    pub far: f32,
+    /// Share of the pixel that is covered.
+    pub cover: f32,
+}
+
+/// A point of a group's rim, between a covered pixel and the one `beyond` it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rim {
+    pub pixel: u32,
+    pub beyond: u32,
+    /// How far from the one centre to the other.
+    pub share: f32,
+    /// Distance of the silhouette there [m].
+    pub depth: f32,
+    pub direction: DVec3,
+}
+
+/// What one group hides.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Mask {
+    /// By pixel, then by distance.
+    pub entries: Vec<Entry>,
+    pub rims: Vec<Rim>,
+    /// No ray meets it: it covers part of the one pixel that holds its middle.
+    pub unmet: bool,
+}
+
+impl Mask {
+    /// The mask of a group from its members and their hits.
+    pub fn new(map: &SphereMap, views: &[&View], hits: &[&[Hit]]) -> Self {
+        let mut all: Vec<Hit> = hits.concat();
+        if hits.len() > 1 {
+            all.sort_by(|a, b| a.pixel.cmp(&b.pixel).then(a.near.total_cmp(&b.near)));
+        }
+        let mut entries: Vec<Entry> = Vec::with_capacity(all.len());
+        for hit in all {
+            match entries.last_mut() {
+                Some(last) if last.pixel == hit.pixel && hit.near - last.far < JOINT => {
+                    last.far = last.far.max(hit.far);
+                }
+                _ => entries.push(Entry { pixel: hit.pixel, near: hit.near, far: hit.far, cover: 1.0 }),
+            }
+        }
+        let mut mask = Self { entries, ..Self::default() };
+        mask.rims = mask.find_rims(map, views);
+        mask.cover_small(map, views);
+        mask
+    }
+
+    /// Whether the group covers a pixel, and from which distance [m].
+    fn nearest(&self, pixel: u32) -> Option<f32> {
+        let at = self.entries.partition_point(|entry| entry.pixel < pixel);
+        self.entries.get(at).filter(|entry| entry.pixel == pixel).map(|entry| entry.near)
+    }
+
+    fn find_rims(&self, map: &SphereMap, views: &[&View]) -> Vec<Rim> {
+        let mut rims = Vec::new();
+        let edges = if let [single] = views { single.silhouette() } else { Vec::new() };
+        let mut before = None;
+        for entry in &self.entries {
+            if before.replace(entry.pixel) == Some(entry.pixel) {
+                continue;
+            }
+            for beyond in map.neighbours(entry.pixel as usize) {
+                if self.nearest(beyond as u32).is_some() {
+                    continue;
+                }
+                let (inside, outside) = (map.centre(entry.pixel as usize), map.centre(beyond));
+                let (share, depth) = if views.len() == 1 {
+                    // Edges inside a body that is not convex come before the silhouette.
+                    edges
+                        .iter()
+                        .filter_map(|edge| edge.crossing(inside, outside))
+                        .max_by(|a, b| a.0.total_cmp(&b.0))
+                        .unwrap_or((0.5, f64::from(entry.near)))
+                } else {
+                    (last_covered(views, inside, outside), f64::from(entry.near))
+                };
+                rims.push(Rim {
+                    pixel: entry.pixel,
+                    beyond: beyond as u32,
+                    share: share as f32,
+                    depth: depth as f32,
+                    direction: inside.lerp(outside, share).normalize(),
+                });
+            }
+        }
+        rims
+    }
+
+    fn cover_small(&mut self, map: &SphereMap, views: &[&View]) {
+        let mut pixels: Vec<u32> = self.entries.iter().map(|entry| entry.pixel).collect();
+        pixels.dedup();
+        if pixels.len() >= FEW {
+            return;
+        }
+        let size: f64 = views.iter().map(|view| view.solid_angles().0).sum();
+        if pixels.is_empty() {
+            self.unmet = true;
+            let middle = views.iter().map(|view| view.middle).sum::<DVec3>() / views.len() as f64;
+            let distances = || views.iter().flat_map(|view| &view.vertices).map(|v| v.length());
+            let pixel = map.pixel(middle);
+            self.entries.push(Entry {
+                pixel: pixel as u32,
+                near: distances().fold(f64::INFINITY, f64::min) as f32,
+                far: distances().fold(0.0, f64::max) as f32,
+                cover: (size / map.solid_angle(pixel)).min(1.0) as f32,
+            });
+            return;
+        }
+        let counted: f64 = pixels.iter().map(|&pixel| map.solid_angle(pixel as usize)).sum();
+        let cover = (size / counted).min(1.0) as f32;
+        self.entries.iter_mut().for_each(|entry| entry.cover = cover);
+    }
+}
+
+/// How far from the covered direction `a` to the uncovered one `b` the last member reaches, to a 256th.
+fn last_covered(views: &[&View], a: DVec3, b: DVec3) -> f64 {
+    let (mut covered, mut open) = (0.0, 1.0);
+    for _ in 0..8 {
+        let middle = 0.5 * (covered + open);
+        let direction = a.lerp(b, middle).normalize();
+        if views.iter().any(|view| view.is_met(direction)) {
+            covered = middle;
+        } else {
+            open = middle;
+        }
+    }
+    0.5 * (covered + open)
+}
