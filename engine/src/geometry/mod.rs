@@ -4,8 +4,10 @@
 
 mod mass;
 mod mesh;
+mod outline;
 mod silhouette;
 
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;
+pub use outline::{JOINT, Outline};
 pub use silhouette::Silhouette;

@@ -11,14 +11,14 @@
 //! ray meets it at all, it goes to the pixel that holds its middle. So nothing is too thin to be seen, and nothing
 //! thin hides more than it covers.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::raster::Hit;
 use super::solid::View;
 use super::sphere_map::SphereMap;
-
-/// Gaps in a group narrower than this are no gaps [m].
-pub const JOINT: f32 = 0.02;
+use crate::geometry::JOINT;
 
 /// Pixels below which a group's solid angle is worked out instead of counted, and a body read at its points.
 pub(super) const FEW: usize = 8;
@@ -65,13 +65,16 @@ impl Mask {
         let mut entries: Vec<Entry> = Vec::with_capacity(all.len());
         for hit in all {
             match entries.last_mut() {
-                Some(last) if last.pixel == hit.pixel && hit.near - last.far < JOINT => {
+                Some(last) if last.pixel == hit.pixel && hit.near - last.far < JOINT as f32 => {
                     last.far = last.far.max(hit.far);
                 }
                 _ => entries.push(Entry { pixel: hit.pixel, near: hit.near, far: hit.far, cover: 1.0 }),
             }
         }
         let mut mask = Self { entries, ..Self::default() };
+        if views.len() > 1 {
+            mask.close_joints(map, views);
+        }
         mask.rims = mask.find_rims(map, views);
         mask.cover_small(map, views);
         mask
@@ -81,6 +84,26 @@ impl Mask {
     fn nearest(&self, pixel: u32) -> Option<f32> {
         let at = self.entries.partition_point(|entry| entry.pixel < pixel);
         self.entries.get(at).filter(|entry| entry.pixel == pixel).map(|entry| entry.near)
+    }
+
+    /// Covers the pixels whose rays slip through a joint between members, from the pixels beside them inward.
+    fn close_joints(&mut self, map: &SphereMap, views: &[&View]) {
+        let mut edge = self.entries.clone();
+        let mut seen = BTreeSet::new();
+        while !edge.is_empty() {
+            let mut closed: Vec<Entry> = Vec::new();
+            for entry in &edge {
+                for pixel in map.neighbours(entry.pixel as usize) {
+                    let fresh = self.nearest(pixel as u32).is_none() && seen.insert(pixel);
+                    if fresh && in_joint(views, map.centre(pixel), f64::from(entry.near)) {
+                        closed.push(Entry { pixel: pixel as u32, ..*entry });
+                    }
+                }
+            }
+            self.entries.extend_from_slice(&closed);
+            self.entries.sort_by(|a, b| a.pixel.cmp(&b.pixel).then(a.near.total_cmp(&b.near)));
+            edge = closed;
+        }
     }
 
     fn find_rims(&self, map: &SphereMap, views: &[&View]) -> Vec<Rim> {
@@ -124,7 +147,7 @@ impl Mask {
         if pixels.len() >= FEW {
             return;
         }
-        let size: f64 = views.iter().map(|view| view.solid_angles().0).sum();
+        let size: f64 = views.iter().map(|view| view.solid_angle()).sum();
         if pixels.is_empty() {
             self.unmet = true;
             let middle = views.iter().map(|view| view.middle).sum::<DVec3>() / views.len() as f64;
@@ -142,6 +165,18 @@ impl Mask {
         let cover = (size / counted).min(1.0) as f32;
         self.entries.iter_mut().for_each(|entry| entry.cover = cover);
     }
+}
+
+/// Whether a ray that meets no member has members on two opposite sides of it, within the width of a joint.
+fn in_joint(views: &[&View], direction: DVec3, distance: f64) -> bool {
+    let (right, up) = direction.any_orthonormal_pair();
+    let is_met = |offset: DVec3| {
+        let aside = (direction + offset * (JOINT / distance)).normalize();
+        views.iter().any(|view| view.is_met(aside))
+    };
+    [right, up, (right + up).normalize(), (right - up).normalize()]
+        .into_iter()
+        .any(|offset| is_met(offset) && is_met(-offset))
 }
 
 /// How far from the covered direction `a` to the uncovered one `b` the last member reaches, to a 256th.

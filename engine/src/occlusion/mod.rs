@@ -32,7 +32,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 pub use attenuation::Attenuation;
-pub use mask::JOINT;
 pub use rings::ring_values;
 pub use solid::{Form, Solid, SurfacePoint};
 pub use sphere_map::{EDGE_ANGLE, PixelPlace, SphereMap, THESIS_RESOLUTION};
@@ -222,15 +221,11 @@ fn can_matter(solids: &[Solid], views: &[View]) -> bool {
 }
 
 fn refuse_inside(solids: &[Solid], views: &[View]) -> Result<()> {
-    for (body, (solid, view)) in solids.iter().zip(views).enumerate() {
-        // Seen from outside, a closed surface turns as much away as toward: the signed sum is 0.
-        let may = solid.occludes && view.middle.length() <= view.radius * (1.0 + 1e-9);
-        if may && view.solid_angles().1.abs() > 1.0 {
-            return Err(Error::Malformed(format!(
-                "a charge lies in or on body {body}, which would shelter everything from it: move one of them, or \
-                 let the body not occlude"
-            )));
-        }
-    }
-    Ok(())
+    let holding = solids.iter().zip(views).position(|(solid, view)| solid.occludes && view.holds_eye());
+    holding.map_or(Ok(()), |body| {
+        Err(Error::Malformed(format!(
+            "a charge lies in or on body {body}, which would shelter everything from it: move one of them, or let \
+             the body not occlude"
+        )))
+    })
 }

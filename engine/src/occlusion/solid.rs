@@ -104,8 +104,7 @@ impl<'a> View<'a> {
         }
         match self.form {
             Form::Box { .. } => self.through_box(direction).is_some(),
-            Form::Mesh(mesh) => mesh.triangles.iter().any(|triangle| {
-                let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
+            Form::Mesh(_) => self.corners().any(|[a, b, c]| {
                 let volume = a.dot(b.cross(c));
                 let sides = [b.cross(c), c.cross(a), a.cross(b)].map(|side| side.dot(direction) * volume);
                 volume != 0.0 && sides.iter().all(|&side| side >= 0.0)
@@ -113,16 +112,22 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Solid angle of the surface [sr], that of a convex body counted once, and the signed one: ±4π from inside
-    /// a closed surface, 0 from outside.
-    pub fn solid_angles(&self) -> (f64, f64) {
-        let (mut size, mut signed) = (0.0, 0.0);
-        for triangle in self.form.triangles() {
-            let angle = triangle_solid_angle(triangle.map(|v| self.vertices[v as usize]));
-            size += 0.5 * angle.abs();
-            signed += angle;
+    /// Solid angle of the surface [sr], counted once for a convex body.
+    pub fn solid_angle(&self) -> f64 {
+        self.corners().map(|corners| 0.5 * triangle_solid_angle(corners).abs()).sum()
+    }
+
+    /// Whether the eye lies in the solid or on its surface.
+    pub fn holds_eye(&self) -> bool {
+        if self.middle.length() > self.radius * (1.0 + 1e-9) {
+            return false;
         }
-        (size, signed)
+        // From outside, a closed surface turns as much away as toward: the signed sum is 0; from inside it is 4π.
+        self.corners().any(lies_on) || self.corners().map(triangle_solid_angle).sum::<f64>().abs() > 1.0
+    }
+
+    fn corners(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.form.triangles().iter().map(|triangle| triangle.map(|v| self.vertices[v as usize]))
     }
 
     /// Edges between a triangle that faces the eye and one that does not: the silhouette and, on a body that is
@@ -130,8 +135,7 @@ impl<'a> View<'a> {
     pub fn silhouette(&self) -> Vec<Edge> {
         let triangles = self.form.triangles();
         let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * triangles.len());
-        for triangle in triangles {
-            let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
+        for (triangle, [a, b, c]) in triangles.iter().zip(self.corners()) {
             let front = (b - a).cross(c - a).dot(a) < 0.0;
             for k in 0..3 {
                 let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
@@ -211,9 +215,22 @@ const BOX_TRIANGLES: [[u32; 3]; 12] = [
     [4, 7, 6],
 ];
 
-/// Solid angle of a triangle seen from the origin [sr], negative if it faces it (Van Oosterom & Strackee 1983).
-fn triangle_solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
+/// Volume and denominator of the solid angle of a triangle seen from the origin (Van Oosterom & Strackee 1983).
+fn solid_angle_parts([a, b, c]: [DVec3; 3]) -> (f64, f64) {
     let (x, y, z) = (a.length(), b.length(), c.length());
-    let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-    2.0 * libm::atan2(a.dot(b.cross(c)), below)
+    (a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
+}
+
+/// Solid angle of a triangle seen from the origin [sr], negative if it faces it.
+fn triangle_solid_angle(corners: [DVec3; 3]) -> f64 {
+    let (volume, below) = solid_angle_parts(corners);
+    2.0 * libm::atan2(volume, below)
+}
+
+/// Whether the origin lies on a triangle, within a billionth of its distance from the corners.
+fn lies_on(corners: [DVec3; 3]) -> bool {
+    let (volume, below) = solid_angle_parts(corners);
+    let size = corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+    let nothing = 1e-9 * size * size * size;
+    volume.abs() <= nothing && below <= nothing
 }

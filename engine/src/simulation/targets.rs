@@ -9,7 +9,7 @@ use super::shelter::Shelters;
 use crate::blast::{BlastField, BlastPoint, Extension};
 use crate::dynamics::RigidBody;
 use crate::error::Result;
-use crate::geometry::{PrincipalAxes, Silhouette};
+use crate::geometry::{Outline, PrincipalAxes, Silhouette};
 use crate::loading::{
     Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
 };
@@ -160,11 +160,6 @@ impl Geometry {
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
     }
-
-    /// Outline as seen from a place; edges on the ground are closed to the flow.
-    fn outline(&self, eye: DVec3, ground: Option<f64>) -> Silhouette {
-        outline(&self.world_corners, self.body.position, eye, ground)
-    }
 }
 
 fn box_corners(size: DVec3) -> Vec<DVec3> {
@@ -177,10 +172,15 @@ fn box_corners(size: DVec3) -> Vec<DVec3> {
         .collect()
 }
 
-fn outline(points: &[DVec3], middle: DVec3, eye: DVec3, ground: Option<f64>) -> Silhouette {
-    let direction = (middle - eye).try_normalize().unwrap_or(DVec3::Z);
+/// Outline of bodies about `middle` as seen from a place; edges on the ground are closed to the flow.
+fn outline(members: &[&Geometry], middle: DVec3, eye: DVec3, ground: Option<f64>) -> Outline {
     let on_ground = |p: DVec3| ground.is_some_and(|height| p.y < height + 0.01);
-    Silhouette::new(points, direction, on_ground)
+    let points = members.iter().map(|geometry| &geometry.world_corners[..]);
+    Outline::new(points, line_of_sight(middle, eye), on_ground)
+}
+
+fn line_of_sight(middle: DVec3, eye: DVec3) -> DVec3 {
+    (middle - eye).try_normalize().unwrap_or(DVec3::Z)
 }
 
 /// Outlines of every assembly, one a charge.
@@ -188,19 +188,20 @@ fn assembly_outlines(
     scene: &Scene,
     fields: &[BlastField],
     geometries: &[Geometry],
-) -> BTreeMap<u32, Vec<Silhouette>> {
-    let mut points: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
+) -> BTreeMap<u32, Vec<Outline>> {
+    let mut members: BTreeMap<u32, Vec<&Geometry>> = BTreeMap::new();
     for (body, geometry) in scene.bodies.iter().zip(geometries) {
         if let Some(id) = body.assembly {
-            points.entry(id).or_default().extend(&geometry.world_corners);
+            members.entry(id).or_default().push(geometry);
         }
     }
     let ground = scene.ground.map(|g| g.height);
-    points
+    members
         .into_iter()
-        .map(|(id, points)| {
-            let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-            (id, fields.iter().map(|f| outline(&points, middle, f.position(), ground)).collect())
+        .map(|(id, members)| {
+            let points = || members.iter().flat_map(|geometry| &geometry.world_corners);
+            let middle = points().sum::<DVec3>() / points().count() as f64;
+            (id, fields.iter().map(|f| outline(&members, middle, f.position(), ground)).collect())
         })
         .collect()
 }
@@ -211,7 +212,7 @@ fn target(
     shelters: &Shelters,
     index: usize,
     geometry: Geometry,
-    assembly: Option<&[Silhouette]>,
+    assembly: Option<&[Outline]>,
 ) -> Target {
     let body = &scene.bodies[index];
     let mut facts = BodyFacts {
@@ -226,11 +227,29 @@ fn target(
     let mut reach = Vec::with_capacity(fields.len());
     let mut share = Share::default();
     for (charge, field) in fields.iter().enumerate() {
-        let own = geometry.outline(field.position(), scene.ground.map(|g| g.height));
-        let around = assembly.map_or(&own, |outlines| &outlines[charge]);
+        let eye = field.position();
+        let alone;
+        let around = if let Some(outlines) = assembly {
+            &outlines[charge]
+        } else {
+            alone = outline(&[&geometry], geometry.body.position, eye, scene.ground.map(|g| g.height));
+            &alone
+        };
+        let sight = line_of_sight(geometry.body.position, eye);
+        let half_width = 0.5 * Silhouette::new(&geometry.world_corners, sight, |_| false).least_width();
         let gain = scene.charges[charge].gain;
-        let aimed =
-            Aim { scene, field, shelters, charge, index, gain, body, geometry: &geometry, own: &own, around };
+        let aimed = Aim {
+            scene,
+            field,
+            shelters,
+            charge,
+            index,
+            gain,
+            body,
+            geometry: &geometry,
+            half_width,
+            around,
+        };
         let shelter = shelters.body(charge, index);
         let centre = aimed.at(geometry.body.position, &shelter);
         let first = loads.len();
@@ -296,8 +315,8 @@ struct Aim<'a> {
     gain: f64,
     body: &'a Body,
     geometry: &'a Geometry,
-    own: &'a Silhouette,
-    around: &'a Silhouette,
+    half_width: f64,
+    around: &'a Outline,
 }
 
 impl Aim<'_> {
@@ -310,7 +329,6 @@ impl Aim<'_> {
         share: &mut Share,
     ) -> (f64, Extension) {
         let state = &self.geometry.body;
-        let half_width = 0.5 * self.own.least_width();
         let lowest = self.scene.ground.map_or(f64::NEG_INFINITY, |g| g.height);
         let settings = HistorySettings {
             mode: self.scene.loading.mode,
@@ -342,7 +360,7 @@ impl Aim<'_> {
             if shelter.attenuation == 0.0 {
                 continue;
             }
-            let clearing_length = self.scene.loading.clearing.length(centre, half_width, self.around);
+            let clearing_length = self.scene.loading.clearing.length(centre, self.half_width, self.around);
             let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
             let drag_coefficient = self.body.drag_coefficient;
             let settings = HistorySettings { gain: self.gain * shelter.attenuation, ..settings };
