@@ -38,6 +38,8 @@ pub(super) struct Entry {
 pub(super) struct Rim {
     pub pixel: u32,
     pub beyond: u32,
+    /// Distance of the covered pixel [m].
+    pub near: f32,
     /// How far from the one centre to the other.
     pub share: f32,
     /// Distance of the silhouette there [m].
@@ -81,7 +83,7 @@ impl Mask {
     }
 
     /// Whether the group covers a pixel, and from which distance [m].
-    fn nearest(&self, pixel: u32) -> Option<f32> {
+    pub fn nearest(&self, pixel: u32) -> Option<f32> {
         let at = self.entries.partition_point(|entry| entry.pixel < pixel);
         self.entries.get(at).filter(|entry| entry.pixel == pixel).map(|entry| entry.near)
     }
@@ -132,6 +134,7 @@ impl Mask {
                 rims.push(Rim {
                     pixel: entry.pixel,
                     beyond: beyond as u32,
+                    near: entry.near,
                     share: share as f32,
                     depth: depth as f32,
                     direction: inside.lerp(outside, share).normalize(),

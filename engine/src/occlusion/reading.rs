@@ -148,7 +148,7 @@ impl Reader<'_> {
         self.sample_body(desk, solid, view, hits);
         let body = if self.look(desk, group) {
             self.measure(desk);
-            self.whole(desk)
+            self.shelter(desk, &desk.samples)
         } else {
             Shelter::NONE
         };
@@ -231,7 +231,7 @@ impl Reader<'_> {
     /// Draws the union of the listed groups, as far as they are nearer than the body, and measures each sample's
     /// distance to its rim.
     fn measure(&self, desk: &mut Desk) {
-        let farthest = desk.samples.iter().map(|sample| sample.distance).fold(0.0, f64::max) as f32;
+        let farthest = end_of_front(&desk.samples) as f32;
         let drawn = |group: &u32| {
             let mask = &self.masks[*group as usize];
             mask.entries.iter().filter(|entry| !mask.unmet && entry.near < farthest)
@@ -266,14 +266,13 @@ impl Reader<'_> {
         let is_drawn = |pixel: u32| union[pixel as usize / 64] & (1 << (pixel % 64)) != 0;
         for &group in &desk.listed {
             let own = self.masks[group as usize].rims.iter();
-            rims.extend(own.filter(|rim| rim.depth < farthest && !is_drawn(rim.beyond)).map(|rim| {
-                RimPoint {
-                    between: (rim.pixel, rim.beyond),
-                    share: rim.share,
-                    depth: f64::from(rim.depth),
-                    direction: rim.direction,
-                }
+            rims.extend(own.filter(|rim| rim.near < farthest && !is_drawn(rim.beyond)).map(|rim| RimPoint {
+                between: (rim.pixel, rim.beyond),
+                share: rim.share,
+                depth: f64::from(rim.depth),
+                direction: rim.direction,
             }));
+            rims.extend(self.cut_rims(group, farthest).filter(|rim| !is_drawn(rim.between.1)));
         }
         if desk.listed.len() > 1 {
             rims.sort_unstable_by(|a, b| a.between.cmp(&b.between).then(b.share.total_cmp(&a.share)));
@@ -281,8 +280,23 @@ impl Reader<'_> {
         }
     }
 
-    fn whole(&self, desk: &Desk) -> Shelter {
-        self.shelter(desk, &desk.samples)
+    /// Where a group goes on, but only beyond `farthest`: to the body it ends there, half-way between two pixels.
+    fn cut_rims(&self, group: u32, farthest: f32) -> impl Iterator<Item = RimPoint> {
+        let (map, mask) = (self.map, &self.masks[group as usize]);
+        let is_cut = mask.entries.iter().any(|entry| entry.near >= farthest);
+        let near = mask.entries.iter().filter(move |entry| is_cut && entry.near < farthest);
+        near.flat_map(move |entry| {
+            let inside = map.centre(entry.pixel as usize);
+            map.neighbours(entry.pixel as usize)
+                .into_iter()
+                .filter(move |&beyond| mask.nearest(beyond as u32).is_some_and(|depth| depth >= farthest))
+                .map(move |beyond| RimPoint {
+                    between: (entry.pixel, beyond as u32),
+                    share: 0.5,
+                    depth: f64::from(entry.near),
+                    direction: (inside + map.centre(beyond)).normalize(),
+                })
+        })
     }
 
     /// Sums up samples.
@@ -317,6 +331,20 @@ impl Sample {
         value: 0.0,
         depth: 0.0,
     };
+}
+
+/// How far the side of a body that the charge sees reaches [m]: two standard deviations beyond its mean distance,
+/// which a few rays that graze its flank do not change.
+fn end_of_front(samples: &[Sample]) -> f64 {
+    let mean_of = |value: &dyn Fn(&Sample) -> f64| {
+        let (sum, weight) = samples.iter().fold((0.0, 0.0), |(sum, weight), sample| {
+            (sum + sample.weight * value(sample), weight + sample.weight)
+        });
+        sum / weight
+    };
+    let mean = mean_of(&|sample| sample.distance);
+    let variance = mean_of(&|sample| (sample.distance - mean) * (sample.distance - mean));
+    mean + 2.0 * libm::sqrt(variance)
 }
 
 /// How much longer than straight the shortest way is that bends once, at the rim, to the sample next to it [m]. None
