@@ -5,6 +5,7 @@
 
 mod arrays;
 mod blast;
+mod occlusion;
 mod recording;
 mod scene;
 
@@ -25,6 +26,8 @@ mod _engine {
         curves, explosives, face_history, front_radius, pulse, rankine_hugoniot, reflection_chart,
         reflection_coefficient,
     };
+    #[pymodule_export]
+    use super::occlusion::{attenuation, ring_values, sphere_pixels, unfolded_sphere};
     #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]

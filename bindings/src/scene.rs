@@ -244,6 +244,16 @@ impl Scene {
         Ok(rows_of_three(py, centres.into_iter()))
     }
 
+    /// Centres of mass in the world at the start, (bodies, 3) [m].
+    fn middles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let middle = |body: &Body| {
+            let own = body.mass_properties().map_err(refused)?.centre;
+            Ok(body.position + body.orientation * own)
+        };
+        let middles: Vec<DVec3> = self.scene.bodies.iter().map(middle).collect::<PyResult<_>>()?;
+        Ok(rows_of_three(py, middles.into_iter()))
+    }
+
     /// What a charge sees: number of the nearest body on each pixel of its sphere map, -1 where there is none, and
     /// its distance [m], not a number where there is none, (pixels,) each.
     fn seen_from<'py>(&self, py: Python<'py>, charge: usize) -> PyResult<SeenFrom<'py>> {

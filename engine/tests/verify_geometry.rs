@@ -117,6 +117,33 @@ fn many_bricks_clear_from_the_edge_of_the_whole_and_of_its_holes() {
     }
 }
 
+/// Seen aslant, where no two corners of neighbours project to the same bits, a whole wall still has no rim within.
+#[test]
+fn a_wall_seen_aslant_has_no_rim_inside() {
+    let bricks: Vec<Vec<DVec3>> = (0..6)
+        .flat_map(|row| (0..8).map(move |column| (row, column)))
+        .map(|(row, column)| {
+            let shift = if row % 2 == 0 { 0.0 } else { 0.16 };
+            let low = DVec3::new(f64::from(column) * 0.32 + shift, f64::from(row) * 0.16, 0.0);
+            (0..8)
+                .map(|code| {
+                    let far = |bit: i32| if code & bit == 0 { 0.0 } else { 1.0 };
+                    low + DVec3::new(0.32 * far(1), 0.16 * far(2), 0.1 * far(4))
+                })
+                .collect()
+        })
+        .collect();
+    for direction in [DVec3::new(0.0, 0.012, 1.0), DVec3::new(0.03, -0.02, 1.0), DVec3::new(0.2, 0.1, 1.0)] {
+        let members = bricks.iter().map(|points: &Vec<DVec3>| &points[..]);
+        let outline = Outline::new(members, direction.normalize(), |p| p.y < 0.01);
+        // The middle of the wall's foot is 0.96 m below its top, and farther from its sides; the thickness of 0.1 m
+        // shows by its slope.
+        let place = DVec3::new(1.36, 0.0, 0.0);
+        let distance = outline.distance_to_edge(place);
+        assert!((distance - 0.96).abs() < 0.05, "{direction}: {distance}");
+    }
+}
+
 /// Two wings that stand apart clear from the gap between them, which a convex outline would not see.
 #[test]
 fn a_gap_wider_than_a_joint_relieves() {

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, Self, TypeAlias, final
 
-from numpy import bool_, float32, float64, int64
+from numpy import bool_, float32, float64, int64, uint32
 from numpy.typing import ArrayLike, NDArray
 
 _Burst: TypeAlias = Literal["air", "surface"]
@@ -13,6 +13,7 @@ _Source: TypeAlias = str | Mapping[str, NDArray[float64]]
 __all__ = [
     "Recording",
     "Scene",
+    "attenuation",
     "curves",
     "explosives",
     "face_history",
@@ -22,6 +23,9 @@ __all__ = [
     "rankine_hugoniot",
     "reflection_chart",
     "reflection_coefficient",
+    "ring_values",
+    "sphere_pixels",
+    "unfolded_sphere",
 ]
 
 def curves(
@@ -81,6 +85,18 @@ def face_history(
     negative_phase: bool = False,
 ) -> NDArray[float64]: ...
 def mass_properties(*, vertices: NDArray[float64], triangles: NDArray[int64]) -> dict[str, Any]: ...
+def attenuation(
+    *,
+    blocking: ArrayLike,
+    separation: ArrayLike,
+    offset: float,
+    slope: float,
+    exponent: float,
+    power: float,
+) -> NDArray[float64]: ...
+def ring_values(*, shape: NDArray[bool_]) -> NDArray[uint32]: ...
+def sphere_pixels(*, directions: NDArray[float64], resolution: int) -> NDArray[int64]: ...
+def unfolded_sphere(*, resolution: int) -> NDArray[float64]: ...
 
 @final
 class Scene:
@@ -145,6 +161,7 @@ class Scene:
         lift_coefficient: float | None,
     ) -> None: ...
     def centres_of_mass(self) -> NDArray[float64]: ...
+    def middles(self) -> NDArray[float64]: ...
     def seen_from(self, charge: int) -> tuple[NDArray[int64], NDArray[float64]]: ...
     def shelter(self, charge: int) -> dict[str, NDArray[float64]]: ...
     def simulate(

@@ -54,9 +54,11 @@ impl Outline {
                     .filter(|(other, index)| *index != own && other.meets(low, high))
                     .filter_map(|(other, _)| other.clip(from, to))
                     .collect();
-                for (start, end) in gaps(&mut covered) {
-                    open.push((a.lerp(b, start), a.lerp(b, end)));
-                }
+                // Where members end flush, rounding leaves slivers; what is left of an edge that is partly covered
+                // counts from a joint's width on.
+                let least = (JOINT / a.distance(b)).min(0.5);
+                let left = gaps(&mut covered).into_iter().filter(|(start, end)| end - start > least);
+                open.extend(left.map(|(start, end)| (a.lerp(b, start), a.lerp(b, end))));
             }
         }
         Self { right, up, open: joined(open) }

@@ -100,9 +100,7 @@ ATTENUATIONS: dict[str, dict[str, float]] = {
 class Occlusion(Model):
     """Shelter behind other bodies. `[occlusion]`"""
 
-    enabled: StrictBool = Field(
-        default=True, description="Whether bodies shelter one another; default true."
-    )
+    enabled: StrictBool = Field(default=True, description="Whether bodies shelter one another; default true.")
     resolution: Annotated[Count, Field(ge=4, le=512)] = Field(
         default=32,
         description="Pixels along an icosahedron edge, 4 to 512; default 32, about 2 degrees each. More resolves "
@@ -134,13 +132,17 @@ class Occlusion(Model):
         "near a shelter's edge.",
     )
     power: Positive | None = Field(
-        default=None, description="Exponent of the whole, above 0; left out: that of parameters. More shelters more."
+        default=None,
+        description="Exponent of the whole, above 0; left out: that of parameters. More shelters more.",
     )
 
     def attenuation(self) -> dict[str, float]:
         """The four numbers of the attenuation: those of ``parameters``, and in place of them any given here."""
         own = {name: getattr(self, name) for name in ("offset", "slope", "exponent", "power")}
-        return {**ATTENUATIONS[self.parameters], **{name: value for name, value in own.items() if value is not None}}
+        return {
+            **ATTENUATIONS[self.parameters],
+            **{name: value for name, value in own.items() if value is not None},
+        }
 
     def for_engine(self) -> dict[str, bool | int | float | str]:
         """What the engine is told."""
