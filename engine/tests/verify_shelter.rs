@@ -211,6 +211,30 @@ fn what_stands_together_or_does_not_occlude_gives_no_shelter() {
     assert_eq!(shelters(&solids, 32)[1].attenuation, 0.0);
 }
 
+/// The foot of a wall on the ground is no edge: the wave comes over the top. In one piece and laid of bricks.
+#[test]
+fn nothing_flows_under_what_stands_on_the_ground() {
+    let eye = DVec3::new(0.0, 0.5, 0.0);
+    let target = block(DVec3::new(0.0, 0.2, 12.0), DVec3::splat(0.02), DQuat::IDENTITY, 1);
+    let whole = block(DVec3::new(0.0, 1.0, 4.0), DVec3::new(30.0, 2.0, 0.2), DQuat::IDENTITY, 0);
+    let mut laid = vec![target.clone()];
+    for i in 0..30 {
+        for j in 0..10 {
+            let centre = DVec3::new(f64::from(i) - 14.5, f64::from(j) * 0.2 + 0.1, 4.0);
+            laid.push(block(centre, DVec3::new(0.995, 0.195, 0.2), DQuat::IDENTITY, 0));
+        }
+    }
+    // From the charge the top of the wall's front is 1.5 m higher at 3.9 m, the target 0.3 m lower at 12 m.
+    let over = (1.5_f64 / 3.9).atan() + (0.3_f64 / 11.99).atan();
+    let under = (0.5_f64 / 3.9).atan() - (0.3_f64 / 11.99).atan();
+    let settings = Settings { resolution: 64, ..Settings::default() };
+    for solids in [vec![target.clone(), whole], laid] {
+        let blocking = |ground| shelter(&solids, eye, ground, &settings).unwrap().bodies[0].blocking;
+        assert!((blocking(Some(0.0)) - over / PIXEL - 0.5).abs() < 0.1, "{}", blocking(Some(0.0)));
+        assert!((blocking(None) - under / PIXEL - 0.5).abs() < 0.1, "{}", blocking(None));
+    }
+}
+
 /// A wall laid of bricks shelters as the same wall in one piece: its joints are no rim.
 #[test]
 fn a_wall_of_bricks_hides_like_one_block() {

@@ -87,7 +87,7 @@ def build(scene: Scene) -> Built:
             drag=loading.drag,
             pulse=loading.pulse,
             negative_phase=loading.negative_phase,
-            occlusion=scene.occlusion.for_engine(),
+            occlusion=scene.occlusion.model_dump(),
             damping_factor=scene.dynamics.damping_factor,
             rotation_factor=scene.dynamics.rotation_factor,
         )

@@ -5,7 +5,8 @@
 //! as one.
 //!
 //! The **rim** is finer than the pixels: between a covered pixel and a neighbour that is not, it is where the
-//! silhouette itself crosses the way from centre to centre.
+//! silhouette itself crosses the way from centre to centre. Where a group stands on the ground it has no rim: nothing
+//! flows under it.
 //!
 //! A **small group**, on fewer than [`FEW`] pixels, covers them by the share that makes its solid angle right. If no
 //! ray meets it at all, it goes to the pixel that holds its middle. So nothing is too thin to be seen, and nothing
@@ -22,6 +23,10 @@ use crate::geometry::JOINT;
 
 /// Pixels below which a group's solid angle is worked out instead of counted, and a body read at its points.
 pub(super) const FEW: usize = 8;
+
+/// Height above the ground up to which a rim stands on it [m], and how much more a metre of distance, for what a
+/// group's rim is known to.
+const ON_GROUND: (f64, f64) = (0.01, 3e-4);
 
 /// A group on one pixel, from `near` to `far` [m].
 #[derive(Debug, Clone, Copy)]
@@ -58,8 +63,9 @@ pub(super) struct Mask {
 }
 
 impl Mask {
-    /// The mask of a group from its members and their hits.
-    pub fn new(map: &SphereMap, views: &[&View], hits: &[&[Hit]]) -> Self {
+    /// The mask of a group from its members and their hits. `ground` is the height of the ground above the charge
+    /// [m], below 0 as a rule; −∞ without one.
+    pub fn new(map: &SphereMap, views: &[&View], hits: &[&[Hit]], ground: f64) -> Self {
         let mut all: Vec<Hit> = hits.concat();
         if hits.len() > 1 {
             all.sort_by(|a, b| a.pixel.cmp(&b.pixel).then(a.near.total_cmp(&b.near)));
@@ -78,6 +84,10 @@ impl Mask {
             mask.close_joints(map, views);
         }
         mask.rims = mask.find_rims(map, views);
+        mask.rims.retain(|rim| {
+            let depth = f64::from(rim.depth);
+            rim.direction.y * depth > ground + ON_GROUND.0 + ON_GROUND.1 * depth
+        });
         mask.cover_small(map, views);
         mask
     }
@@ -129,7 +139,7 @@ impl Mask {
                         .max_by(|a, b| a.0.total_cmp(&b.0))
                         .unwrap_or((0.5, f64::from(entry.near)))
                 } else {
-                    (last_covered(views, inside, outside), f64::from(entry.near))
+                    last_covered(views, inside, outside, f64::from(entry.near))
                 };
                 rims.push(Rim {
                     pixel: entry.pixel,
@@ -182,8 +192,9 @@ fn in_joint(views: &[&View], direction: DVec3, distance: f64) -> bool {
         .any(|offset| is_met(offset) && is_met(-offset))
 }
 
-/// How far from the covered direction `a` to the uncovered one `b` the last member reaches, to a 256th.
-fn last_covered(views: &[&View], a: DVec3, b: DVec3) -> f64 {
+/// How far from the covered direction `a` to the uncovered one `b` the last member reaches, to a 256th, and its distance
+/// there [m]; that of a mesh is taken from `a`, where it is `near`.
+fn last_covered(views: &[&View], a: DVec3, b: DVec3, near: f64) -> (f64, f64) {
     let (mut covered, mut open) = (0.0, 1.0);
     for _ in 0..8 {
         let middle = 0.5 * (covered + open);
@@ -194,5 +205,8 @@ fn last_covered(views: &[&View], a: DVec3, b: DVec3) -> f64 {
             open = middle;
         }
     }
-    0.5 * (covered + open)
+    let last = a.lerp(b, covered).normalize();
+    let met = views.iter().filter_map(|view| view.through_box(last)).map(|(enter, _)| enter);
+    let depth = met.fold(f64::INFINITY, f64::min);
+    (0.5 * (covered + open), if depth.is_finite() { depth } else { near })
 }

@@ -17,8 +17,8 @@
 //! memory in proportion to the pixels that are covered. Turning the whole scene changes b and k by the error of
 //! the pixels, which falls with the resolution.
 //!
-//! What it does not know: the ground is no occluder, a wave is not weakened by what it goes round twice, and
-//! nothing is reflected.
+//! What it does not know: the ground hides nothing (it only closes the foot of what stands on it), a wave is not
+//! weakened by what it goes round twice, and nothing is reflected.
 
 mod attenuation;
 mod mask;
@@ -138,7 +138,7 @@ pub fn shelter(solids: &[Solid], eye: DVec3, ground: Option<f64>, settings: &Set
     let map = SphereMap::new(settings.resolution)?;
     let seen: Vec<Vec<Hit>> = views.par_iter().map(|view| hits(&map, view)).collect();
     let groups = Groups::new(solids);
-    let masks = groups.masks(&map, &views, &seen);
+    let masks = groups.masks(&map, &views, &seen, ground.map_or(f64::NEG_INFINITY, |height| height - eye.y));
     let columns = Columns::new(&map, &masks);
     let enclosed = columns.enclosed(&map, ground.is_some_and(|height| eye.y >= height));
     let reader = Reader { map: &map, columns: &columns, masks: &masks, eye, settings };
@@ -197,7 +197,7 @@ impl Groups {
         Self { of, occluders }
     }
 
-    fn masks(&self, map: &SphereMap, views: &[View], seen: &[Vec<Hit>]) -> Vec<Mask> {
+    fn masks(&self, map: &SphereMap, views: &[View], seen: &[Vec<Hit>], ground: f64) -> Vec<Mask> {
         self.occluders
             .par_iter()
             .map(|members| {
@@ -206,7 +206,7 @@ impl Groups {
                 }
                 let own: Vec<&View> = members.iter().map(|&body| &views[body]).collect();
                 let hits: Vec<&[Hit]> = members.iter().map(|&body| &seen[body][..]).collect();
-                Mask::new(map, &own, &hits)
+                Mask::new(map, &own, &hits, ground)
             })
             .collect()
     }

@@ -27,7 +27,7 @@ MOST_NAMED = 12
 
 
 def draw_map(path: Path, changes: list[str], output: Path) -> str:
-    """Draw the maps of all charges of the scene file ``path`` into the PNG ``output``; what it shows, as text."""
+    """Draw the maps of all charges of a scene file into a PNG; return what it shows, as text."""
     if check_writable(output).suffix.lower() != ".png":
         raise InputError(f"{output}: the map is a picture; give a name that ends in .png.")
     scene = load(path, changes)
@@ -87,7 +87,7 @@ def _write(
 
 
 def _mark_hidden(axes: Axes, scene: Scene, built: Built, charge: int, share: NDArray[np.float64]) -> None:
-    """A ring of its object's colour where the middle of each sheltered piece is, seen through what hides it."""
+    """A ring of its object's colour where the middle of each sheltered piece is."""
     hidden = np.flatnonzero(share < 1.0)
     if not len(hidden):
         return
@@ -127,7 +127,7 @@ def _colours(
 def _labels(
     built: Built, bodies: NDArray[np.int64], source: NDArray[np.intp], share: NDArray[np.float64]
 ) -> list[tuple[int, str]]:
-    """The objects seen on most pixels and those hidden, each with the share of the load that comes through to it."""
+    """The objects on most pixels first, each with the share of the load that comes through to it."""
     pixels = np.bincount(source[bodies[bodies >= 0]], minlength=len(built.sets))
     labels = []
     for group in np.argsort(-pixels, kind="stable")[:MOST_NAMED].tolist():

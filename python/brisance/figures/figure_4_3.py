@@ -41,8 +41,8 @@ def draw(picture: Picture, data: Table) -> None:
     draw_faces(axes, style.INK)
     face = np.asarray(data["face"])
     for number in range(20):
-        middle = corners[face == number].mean(axis=(0, 1))
-        axes.text(*middle, str(number), ha="center", va="center", fontsize=8.0, weight="bold")
+        x, y = corners[face == number].mean(axis=(0, 1))
+        axes.text(x, y, str(number), ha="center", va="center", fontsize=8.0, weight="bold")
     axes.set_title(f"20 faces of {RESOLUTION} pixels a side; up is the sky, the middle of the sheet is +z")
     frame_sheet(axes)
 

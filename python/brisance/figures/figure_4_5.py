@@ -8,7 +8,7 @@ import numpy as np
 
 from brisance import _engine
 from brisance.figures.figure import Figure, Table, whole
-from brisance.model.settings import ATTENUATIONS
+from brisance.model.settings import Occlusion
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
@@ -17,9 +17,17 @@ STEPS = 41
 
 
 def compute() -> Table:
-    """Attenuation on a grid: separation 0 to 1, blocking factor 0 to 8 pixels, with the thesis's constants."""
+    """Attenuation on a grid of separations, 0 to 1, and blocking factors, 0 to 8 pixels."""
     separation, blocking = np.meshgrid(np.linspace(0.0, 1.0, STEPS), np.linspace(0.0, 8.0, STEPS))
-    share = _engine.attenuation(blocking=blocking, separation=separation, **ATTENUATIONS["thesis"])
+    own = Occlusion()
+    share = _engine.attenuation(
+        blocking=blocking,
+        separation=separation,
+        offset=own.offset,
+        slope=own.slope,
+        exponent=own.exponent,
+        power=own.power,
+    )
     return {
         "separation": separation.ravel(),
         "blocking_px": blocking.ravel(),
@@ -33,11 +41,11 @@ def draw(picture: Picture, data: Table) -> None:
         np.asarray(data[name], dtype=float).reshape(STEPS, STEPS)
         for name in ("separation", "blocking_px", "attenuation")
     )
-    axes.plot_surface(k, b, f, cmap="viridis", rcount=STEPS, ccount=STEPS, linewidth=0.2, edgecolor="white")  # type: ignore[attr-defined]
+    axes.plot_surface(k, b, f, cmap="viridis", rcount=STEPS, ccount=STEPS, linewidth=0.2, edgecolor="white")
     axes.set_xlabel("separation k")
     axes.set_ylabel("blocking factor b [px]")
-    axes.set_zlabel("attenuation f")  # type: ignore[attr-defined]
-    axes.view_init(elev=26.0, azim=-52.0)  # type: ignore[attr-defined]
+    axes.set_zlabel("attenuation f")
+    axes.view_init(elev=26.0, azim=-52.0)
 
 
 FIGURE = Figure(

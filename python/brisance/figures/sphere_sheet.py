@@ -23,7 +23,7 @@ def draw_faces(axes: Axes, colour: str = style.GREY) -> None:
 
     n = 4
     pixels = _engine.unfolded_sphere(resolution=n)
-    # A face's corners are the outermost corners of its first pixel, its last one, and one beside the first strip.
+    # A face's corners are those of its first pixel, its last one, and the last one of its first strip.
     corners = pixels.reshape(20, n * n, 3, 2)
     faces = np.stack([corners[:, 0, 0], corners[:, -1, 1], corners[:, 2 * n - 2, 2]], axis=1)
     axes.add_collection(PolyCollection(list(faces), facecolors="none", edgecolors=colour, linewidths=0.9))

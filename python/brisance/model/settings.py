@@ -90,68 +90,42 @@ class Loading(Model):
     )
 
 
-ATTENUATIONS: dict[str, dict[str, float]] = {
-    "thesis": {"offset": 1.0, "slope": 7.0, "exponent": 1.5, "power": 2.0},
-    "fitted": {"offset": 1.0, "slope": 7.0, "exponent": 1.5, "power": 2.0},
-}
-"""Named parameters of the attenuation (1 - (b / (offset + slope k))^exponent)^power."""
-
-
 class Occlusion(Model):
-    """Shelter behind other bodies. `[occlusion]`"""
+    """Shelter behind other bodies. `[occlusion]`
+
+    A body receives the share ``(1 - x^exponent)^power`` of its load, with x its blocking factor over
+    ``offset + slope k`` and k its separation; nothing where x is 1 or more. The defaults are the thesis's.
+    """
 
     enabled: StrictBool = Field(default=True, description="Whether bodies shelter one another; default true.")
     resolution: Annotated[Count, Field(ge=4, le=512)] = Field(
         default=32,
-        description="Pixels along an icosahedron edge, 4 to 512; default 32, about 2 degrees each. More resolves "
-        "smaller bodies, at a cost that grows with its square.",
+        description="Pixels along an icosahedron edge, 4 to 512; default 32, about 2 degrees each. More "
+        "resolves smaller bodies, at a cost that grows with its square.",
     )
     per: Literal["body", "panel"] = Field(
         default="body",
-        description="One shelter factor for each body (default) or one for each of its panels, so that one side "
-        "is loaded more than another.",
+        description="One shelter factor for each body (default) or one for each of its panels, so that one "
+        "side is loaded more than another.",
     )
-    parameters: Literal["thesis", "fitted"] = Field(
-        default="thesis",
-        description="How shelter grows with blocking factor and separation: with the thesis's own constants "
-        "(default), or with those fitted to measurements behind blast walls.",
+    offset: Positive = Field(
+        default=1.0,
+        description="Blocking factor, in pixels of 2 degrees, that keeps everything off a body close behind "
+        "its shelter, above 0; default 1. More shelters less.",
     )
-    offset: Positive | None = Field(
-        default=None,
-        description="Blocking factor, in pixels of 2 degrees, that keeps everything off a body close behind its "
-        "shelter, above 0; left out: that of parameters. More shelters less.",
+    slope: NotNegative = Field(
+        default=7.0,
+        description="By how much that blocking factor grows with the separation, 0 or more; default 7. More "
+        "lets the wave close sooner behind a shelter.",
     )
-    slope: NotNegative | None = Field(
-        default=None,
-        description="By how much that blocking factor grows with the gap, 0 or more; left out: that of parameters. "
-        "More lets the wave close sooner behind a shelter.",
+    exponent: Positive = Field(
+        default=1.5,
+        description="Exponent of the blocking factor, above 0; default 1.5. More shelters less near a "
+        "shelter's edge.",
     )
-    exponent: Positive | None = Field(
-        default=None,
-        description="Exponent of the blocking factor, above 0; left out: that of parameters. More shelters less "
-        "near a shelter's edge.",
+    power: Positive = Field(
+        default=2.0, description="Exponent of the whole, above 0; default 2. More shelters more."
     )
-    power: Positive | None = Field(
-        default=None,
-        description="Exponent of the whole, above 0; left out: that of parameters. More shelters more.",
-    )
-
-    def attenuation(self) -> dict[str, float]:
-        """The four numbers of the attenuation: those of ``parameters``, and in place of them any given here."""
-        own = {name: getattr(self, name) for name in ("offset", "slope", "exponent", "power")}
-        return {
-            **ATTENUATIONS[self.parameters],
-            **{name: value for name, value in own.items() if value is not None},
-        }
-
-    def for_engine(self) -> dict[str, bool | int | float | str]:
-        """What the engine is told."""
-        return {
-            "enabled": self.enabled,
-            "resolution": self.resolution,
-            "per": self.per,
-            **self.attenuation(),
-        }
 
 
 class Dynamics(Model):
