@@ -14,6 +14,10 @@ use super::{Per, Settings, Shelter};
 /// A body is read at no more of its pixels than this, evenly spread.
 const MOST_SAMPLES: usize = 4096;
 
+/// Of what is in front on a pixel, this many are looked at, those closest to the body first. What lies before so many
+/// hardly adds to the union, and without a bound the cost of a body would grow with the depth of the scene.
+const MOST_IN_FRONT: usize = 64;
+
 /// What lies nearer by less than this part of the distance is not in front, but beside.
 const BESIDE: f64 = 1e-5;
 
@@ -208,13 +212,11 @@ impl Reader<'_> {
         for sample in &mut desk.samples {
             let front = (sample.distance * (1.0 - BESIDE)) as f32;
             let mut open = 1.0;
-            for entry in self.columns.at(sample.pixel) {
-                if entry.near >= front {
-                    break;
-                }
-                if entry.group == own {
-                    continue;
-                }
+            let column = self.columns.at(sample.pixel);
+            let nearer = column.partition_point(|entry| entry.near < front);
+            let closest =
+                column[..nearer].iter().rev().filter(|entry| entry.group != own).take(MOST_IN_FRONT);
+            for entry in closest {
                 open *= 1.0 - f64::from(entry.cover);
                 sample.rear = sample.rear.max(f64::from(entry.far).min(sample.distance));
                 let found = &mut desk.found[entry.group as usize];

@@ -8,7 +8,7 @@
 /// plus a half, which is what this counts where an edge runs along the grid. Where it runs aslant the count is up to
 /// √2 times as much, 1.12 times on the average over all slants.
 pub fn ring_values(shape: &[bool], width: usize) -> Vec<u32> {
-    let height = if width == 0 { 0 } else { shape.len() / width };
+    let height = shape.len().checked_div(width).unwrap_or(0);
     let mut values: Vec<u32> = shape[..width * height].iter().map(|&inside| u32::from(inside)).collect();
     // A pixel is one more than its least neighbour: one sweep from each corner settles city-block distances.
     let step = |values: &mut Vec<u32>, at: usize, one: Option<usize>, two: Option<usize>| {

@@ -23,7 +23,7 @@ pub const EDGE_ANGLE: f64 = 1.107_148_717_794_090_4;
 pub const THESIS_RESOLUTION: f64 = 32.0;
 
 /// Height of the ring of five corners next to a pole, `1/√5`, and the radius of that ring.
-const RING: (f64, f64) = (0.447_213_595_499_957_94, 0.894_427_190_999_915_9);
+const RING: (f64, f64) = (0.447_213_595_499_957_9, 0.894_427_190_999_915_9);
 
 /// A sphere map of one resolution. It knows directions and pixels and no body.
 #[derive(Debug, Clone)]
