@@ -78,7 +78,7 @@ fn a_rectangle_has_its_width_and_clears_from_its_nearest_edge() {
     let free = Silhouette::new(&points, DVec3::Z, |_| false);
     assert!((free.least_width() - 1.0).abs() < 1e-12);
     let place = DVec3::new(0.0, 0.2, 0.0);
-    assert!((outline(&[points.clone()], |_| false).distance_to_edge(place) - 0.2).abs() < 1e-12);
+    assert!((outline(std::slice::from_ref(&points), |_| false).distance_to_edge(place) - 0.2).abs() < 1e-12);
     let standing = outline(&[points], |p| p.y <= 0.0);
     assert!((standing.distance_to_edge(place) - 0.8).abs() < 1e-12);
     assert_eq!(
