@@ -9,6 +9,7 @@ mod detonation;
 mod fracture;
 mod hydrocode;
 mod material;
+mod occlusion;
 mod recording;
 mod scene;
 mod structure;
@@ -41,6 +42,8 @@ mod _engine {
         critical_length, energy_release, material_facts, materials, mean_fragment_area,
         mean_fragment_velocity,
     };
+    #[pymodule_export]
+    use super::occlusion::{attenuation, ring_values, sphere_pixels, unfolded_sphere};
     #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]

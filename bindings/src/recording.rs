@@ -14,13 +14,19 @@ use crate::engine;
 #[pyclass(module = "brisance._engine", frozen)]
 pub struct Recording {
     inner: EngineRecording,
-    load: Duration,
-    dynamics: Duration,
+    timing: Timing,
+}
+
+/// Wall-clock time of a run's parts.
+pub struct Timing {
+    pub occlusion: Duration,
+    pub load: Duration,
+    pub dynamics: Duration,
 }
 
 impl Recording {
-    pub fn new(inner: EngineRecording, load: Duration, dynamics: Duration) -> Self {
-        Self { inner, load, dynamics }
+    pub fn new(inner: EngineRecording, timing: Timing) -> Self {
+        Self { inner, timing }
     }
 
     fn fact<'py>(&self, py: Python<'py>, fact: fn(&BodyFacts) -> f64) -> Bound<'py, PyArray1<f64>> {
@@ -130,12 +136,13 @@ impl Recording {
         self.inner.warnings.clone()
     }
 
-    /// Wall-clock time of the run's parts [s]: load, dynamics.
+    /// Wall-clock time of the run's parts [s]: occlusion, load, dynamics.
     #[getter]
     fn timing_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let timing = PyDict::new(py);
-        timing.set_item("load", self.load.as_secs_f64())?;
-        timing.set_item("dynamics", self.dynamics.as_secs_f64())?;
+        timing.set_item("occlusion", self.timing.occlusion.as_secs_f64())?;
+        timing.set_item("load", self.timing.load.as_secs_f64())?;
+        timing.set_item("dynamics", self.timing.dynamics.as_secs_f64())?;
         Ok(timing)
     }
 }

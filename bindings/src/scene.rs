@@ -9,17 +9,21 @@ use engine::charge::Charge;
 use engine::dynamics::ground::Ground;
 use engine::geometry::{MassProperties, TriangleMesh};
 use engine::loading::Clearing;
+use engine::occlusion::{Attenuation, Per, Settings as Occlusion, Shelter};
 use engine::scene::{Body, Dynamics, Loading, Scene as EngineScene, Shape, Time};
-use engine::simulation::Simulation;
+use engine::simulation::{Shelters, Simulation, seen_from};
 use glam::DVec3;
-use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{floats, quaternion, quaternions, rows_of_three, same_length, vectors};
 use crate::blast::{Source, burst, drag, loading_mode, pulse_shape};
-use crate::recording::Recording;
+use crate::recording::{Recording, Timing};
 use crate::{InputError, engine, refused};
+
+/// Number of the nearest body, and its distance.
+type SeenFrom<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
 
 /// How often a run listens for Ctrl-C and reports how far it is.
 const HEARTBEAT: Duration = Duration::from_millis(50);
@@ -34,6 +38,36 @@ pub enum ClearingArgument {
     Name(String),
 }
 
+/// How shelter is found: whether at all, the map's resolution, for a body or each panel, and the attenuation's
+/// offset, slope, exponent and power.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct OcclusionArgument {
+    enabled: bool,
+    resolution: usize,
+    per: String,
+    offset: f64,
+    slope: f64,
+    exponent: f64,
+    power: f64,
+}
+
+impl OcclusionArgument {
+    fn into_engine(self) -> PyResult<Occlusion> {
+        let attenuation = Attenuation {
+            offset: self.offset,
+            slope: self.slope,
+            exponent: self.exponent,
+            power: self.power,
+        };
+        let per =
+            crate::blast::choose("occlusion per", &self.per, &[("body", Per::Body), ("panel", Per::Panel)])?;
+        let settings = Occlusion { enabled: self.enabled, resolution: self.resolution, per, attenuation };
+        settings.validate().map_err(refused)?;
+        Ok(settings)
+    }
+}
+
 /// A scene of charges and rigid bodies, ready to be filled and simulated.
 #[pyclass(module = "brisance._engine")]
 pub struct Scene {
@@ -45,7 +79,7 @@ pub struct Scene {
 impl Scene {
     #[new]
     #[pyo3(signature = (*, pressure, temperature, ground, duration, frame_rate, step, mode, clearing, drag, pulse,
-        negative_phase, damping_factor, rotation_factor))]
+        negative_phase, occlusion, damping_factor, rotation_factor))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         pressure: f64,
@@ -59,6 +93,7 @@ impl Scene {
         drag: &str,
         pulse: &str,
         negative_phase: bool,
+        occlusion: OcclusionArgument,
         damping_factor: f64,
         rotation_factor: f64,
     ) -> PyResult<Self> {
@@ -83,6 +118,7 @@ impl Scene {
                 pulse: pulse_shape(pulse)?,
                 negative_phase,
             },
+            occlusion: occlusion.into_engine()?,
             dynamics: Dynamics { damping_factor, rotation_factor },
         };
         Ok(Self { scene, assemblies: 0 })
@@ -116,8 +152,8 @@ impl Scene {
     }
 
     /// Adds n boxes: sizes (n, 3), positions (n, 3), orientations (n, 4) w first, masses (n,), buried faces (n, 6).
-    #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, can_rotate, friction,
-        drag_coefficient, lift_coefficient))]
+    #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, occludes, can_rotate,
+        friction, drag_coefficient, lift_coefficient))]
     #[allow(clippy::too_many_arguments)]
     fn add_boxes(
         &mut self,
@@ -128,6 +164,7 @@ impl Scene {
         buried: PyReadonlyArray2<'_, bool>,
         assembly: bool,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: f64,
         drag_coefficient: f64,
@@ -155,6 +192,7 @@ impl Scene {
                 mass: masses[i],
                 assembly: group,
                 anchored,
+                occludes,
                 can_rotate,
                 friction,
                 drag_coefficient,
@@ -165,8 +203,8 @@ impl Scene {
     }
 
     /// Adds one body with the shape of a closed mesh: vertices (v, 3) in its own frame, triangles (t, 3).
-    #[pyo3(signature = (*, vertices, triangles, position, orientation, mass, anchored, can_rotate, friction,
-        drag_coefficient, lift_coefficient))]
+    #[pyo3(signature = (*, vertices, triangles, position, orientation, mass, anchored, occludes, can_rotate,
+        friction, drag_coefficient, lift_coefficient))]
     #[allow(clippy::too_many_arguments)]
     fn add_mesh(
         &mut self,
@@ -176,6 +214,7 @@ impl Scene {
         orientation: [f64; 4],
         mass: f64,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: f64,
         drag_coefficient: f64,
@@ -188,6 +227,7 @@ impl Scene {
             mass,
             assembly: None,
             anchored,
+            occludes,
             can_rotate,
             friction,
             drag_coefficient,
@@ -202,6 +242,46 @@ impl Scene {
             .map(|body| body.mass_properties().map(|m| m.centre).map_err(refused))
             .collect::<PyResult<_>>()?;
         Ok(rows_of_three(py, centres.into_iter()))
+    }
+
+    /// Centres of mass in the world at the start, (bodies, 3) [m].
+    fn middles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let middle = |body: &Body| {
+            let own = body.mass_properties().map_err(refused)?.centre;
+            Ok(body.position + body.orientation * own)
+        };
+        let middles: Vec<DVec3> = self.scene.bodies.iter().map(middle).collect::<PyResult<_>>()?;
+        Ok(rows_of_three(py, middles.into_iter()))
+    }
+
+    /// What a charge sees: number of the nearest body on each pixel of its sphere map, -1 where there is none, and
+    /// its distance [m], not a number where there is none, (pixels,) each.
+    fn seen_from<'py>(&self, py: Python<'py>, charge: usize) -> PyResult<SeenFrom<'py>> {
+        if charge >= self.scene.charges.len() {
+            return Err(InputError::new_err(format!(
+                "there is no charge {charge}; the scene has {}, numbered from 0",
+                self.scene.charges.len()
+            )));
+        }
+        let seen = py.detach(|| seen_from(&self.scene, charge)).map_err(refused)?;
+        let bodies = seen.iter().map(|first| first.map_or(-1, |(body, _)| body as i64));
+        let distances = seen.iter().map(|first| first.map_or(f64::NAN, |(_, distance)| distance));
+        Ok((PyArray1::from_iter(py, bodies), PyArray1::from_iter(py, distances)))
+    }
+
+    /// How each body is sheltered from a charge: blocking factor, separation, hidden share, attenuation and detour
+    /// [m], (bodies,) each.
+    fn shelter<'py>(&self, py: Python<'py>, charge: usize) -> PyResult<Bound<'py, PyDict>> {
+        let shelters = py.detach(|| Shelters::find(&self.scene)).map_err(refused)?;
+        let all: Vec<_> = (0..self.scene.bodies.len()).map(|body| shelters.body(charge, body)).collect();
+        let result = PyDict::new(py);
+        let column = |value: fn(&Shelter) -> f64| PyArray1::from_iter(py, all.iter().map(value));
+        result.set_item("hidden", column(|s| s.hidden))?;
+        result.set_item("blocking_px", column(|s| s.blocking))?;
+        result.set_item("separation", column(|s| s.separation))?;
+        result.set_item("attenuation", column(|s| s.attenuation))?;
+        result.set_item("detour_m", column(|s| s.detour))?;
+        Ok(result)
     }
 
     /// Runs the scene. `progress(done, total)` hears of frames; `threads` bounds the threads used.
@@ -230,8 +310,10 @@ impl Scene {
 /// Runs a scene without the GIL, taking it back now and then to listen for Ctrl-C and report progress.
 fn run(scene: &EngineScene, progress: Option<&Py<PyAny>>) -> PyResult<Recording> {
     let start = Instant::now();
-    let simulation = Simulation::prepare(scene).map_err(refused)?;
-    let load = start.elapsed();
+    let shelters = Shelters::find(scene).map_err(refused)?;
+    let occlusion = start.elapsed();
+    let simulation = Simulation::prepare_sheltered(scene, &shelters).map_err(refused)?;
+    let load = start.elapsed() - occlusion;
     let mut last_beat = Instant::now();
     let mut interruption = None;
     let mut observer = |done: usize, total: usize| {
@@ -252,10 +334,10 @@ fn run(scene: &EngineScene, progress: Option<&Py<PyAny>>) -> PyResult<Recording>
         }
     };
     let recorded = simulation.run(&mut observer);
-    let dynamics = start.elapsed() - load;
+    let dynamics = start.elapsed() - occlusion - load;
     match interruption {
         Some(error) => Err(error),
-        None => Ok(Recording::new(recorded.map_err(refused)?, load, dynamics)),
+        None => Ok(Recording::new(recorded.map_err(refused)?, Timing { occlusion, load, dynamics })),
     }
 }
 

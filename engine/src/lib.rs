@@ -6,6 +6,7 @@
 //! - [`charge`]: explosives, TNT equivalence, burst; [`material`]: brittle materials and their cracks;
 //! - [`blast`]: at this point, from this charge: when does the front come, and what is the pulse?
 //! - [`loading`]: what that pulse does to a piece of surface;
+//! - [`occlusion`]: what shelters behind what, and how much of the blast comes round;
 //! - [`dynamics`]: how bodies stand, slide, fly and land;
 //! - [`scene`], [`simulation`], [`recording`]: what a run is given, the run, what it gives back;
 //! - [`structure`], [`detonation`], [`hydrocode`]: the theory beside the simulation, on `air` and `charge` alone.
@@ -28,6 +29,7 @@ pub mod geometry;
 pub mod hydrocode;
 pub mod loading;
 pub mod material;
+pub mod occlusion;
 pub mod random;
 pub mod recording;
 mod root;

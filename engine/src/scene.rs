@@ -11,6 +11,7 @@ use crate::dynamics::ground::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::geometry::{MassProperties, TriangleMesh};
 use crate::loading::{Clearing, Drag, LoadingMode};
+use crate::occlusion;
 
 /// Everything a run needs to know.
 #[derive(Debug, Clone)]
@@ -27,6 +28,8 @@ pub struct Scene {
     pub time: Time,
     /// How loads are found.
     pub loading: Loading,
+    /// How shelter behind other bodies is found.
+    pub occlusion: occlusion::Settings,
     /// Art direction of the motion.
     pub dynamics: Dynamics,
 }
@@ -91,10 +94,13 @@ pub struct Body {
     pub orientation: DQuat,
     /// Mass [kg].
     pub mass: f64,
-    /// Bodies of the same assembly stand together: they clear from the outer edge of all. `None`: alone.
+    /// Bodies of the same assembly stand together: they clear from the outer edge of all and do not shelter each
+    /// other. `None`: alone.
     pub assembly: Option<u32>,
     /// An anchored body never moves; its loads are recorded all the same.
     pub anchored: bool,
+    /// Whether it shelters what is behind it. It may be sheltered all the same.
+    pub occludes: bool,
     /// Whether it may rotate.
     pub can_rotate: bool,
     /// Coefficient of friction.
@@ -164,6 +170,7 @@ impl Scene {
         if let Clearing::Length(length) = self.loading.clearing {
             not_negative("clearing length [m]", length)?;
         }
+        self.occlusion.validate()?;
         not_negative("damping factor", self.dynamics.damping_factor)?;
         not_negative("rotation factor", self.dynamics.rotation_factor)?;
         self.bodies.iter().try_for_each(Body::validate)

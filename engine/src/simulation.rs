@@ -1,5 +1,6 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
+mod shelter;
 mod targets;
 
 use std::ops::ControlFlow;
@@ -14,6 +15,7 @@ use crate::dynamics::{Air, Carry, Footing, GRAVITY, RigidBody, Support, Winds};
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
+pub use shelter::{Shelters, seen_from};
 use targets::{LoadQueue, Target};
 
 /// Below this many bodies a step is not worth sharing among threads.
@@ -89,15 +91,23 @@ struct Life {
 }
 
 impl Simulation {
-    /// Checks a scene and works out all loads.
+    /// Checks a scene, finds what shelters behind what and works out all loads.
     ///
     /// # Errors
     /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
     pub fn prepare(scene: &Scene) -> Result<Self> {
+        Self::prepare_sheltered(scene, &Shelters::find(scene)?)
+    }
+
+    /// Works out all loads of a scene whose shelters are already found.
+    ///
+    /// # Errors
+    /// As [`prepare`](Self::prepare).
+    pub fn prepare_sheltered(scene: &Scene, shelters: &Shelters) -> Result<Self> {
         scene.validate()?;
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
-        let targets = targets::aim(scene, &fields)?;
+        let targets = targets::aim(scene, &fields, shelters)?;
         let steps_per_frame = targets::steps_per_frame(scene, &targets);
         let footings: Vec<Footing> = targets
             .iter()
@@ -112,6 +122,7 @@ impl Simulation {
         let height = scene.ground.map(|g| g.height);
         let support = Support::new(&footings, height);
         let mut warnings = reach_warnings(&targets, fields.len());
+        warnings.extend_from_slice(&shelters.warnings);
         if scene.ground.is_some() {
             let anchored = |index: &usize| scene.bodies[*index].anchored;
             warnings.extend(hanging_warning(

@@ -1,8 +1,8 @@
 //! Mass properties and outlines against closed forms. Tolerances are rounding of sums over a few hundred terms.
 
-use brisance_engine::geometry::{MassProperties, PrincipalAxes, Silhouette, TriangleMesh};
+use brisance_engine::geometry::{JOINT, MassProperties, Outline, PrincipalAxes, Silhouette, TriangleMesh};
 use brisance_engine::loading::{box_panels, mesh_panels};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 
 fn box_mesh(size: DVec3, placed: impl Fn(DVec3) -> DVec3) -> TriangleMesh {
@@ -61,16 +61,100 @@ fn off_diagonal_inertia_carries_the_sign_of_the_matrix() {
     assert!(inertia.y_axis.x < 0.0);
 }
 
+/// Corners of an upright rectangle in the plane z = 3.
+fn rectangle(low: (f64, f64), high: (f64, f64)) -> Vec<DVec3> {
+    [(low.0, low.1), (high.0, low.1), (high.0, high.1), (low.0, high.1)]
+        .map(|(x, y)| DVec3::new(x, y, 3.0))
+        .into()
+}
+
+fn outline(members: &[Vec<DVec3>], closed: impl Fn(DVec3) -> bool) -> Outline {
+    Outline::new(members.iter().map(|points| &points[..]), DVec3::Z, closed)
+}
+
 #[test]
 fn a_rectangle_has_its_width_and_clears_from_its_nearest_edge() {
-    let points: Vec<DVec3> =
-        [(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (-2.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 3.0)).into();
+    let points = rectangle((-2.0, 0.0), (2.0, 1.0));
     let free = Silhouette::new(&points, DVec3::Z, |_| false);
     assert!((free.least_width() - 1.0).abs() < 1e-12);
-    assert!((free.distance_to_edge(DVec3::new(0.0, 0.2, 0.0)) - 0.2).abs() < 1e-12);
-    let standing = Silhouette::new(&points, DVec3::Z, |p| p.y <= 0.0);
-    assert!((standing.distance_to_edge(DVec3::new(0.0, 0.2, 0.0)) - 0.8).abs() < 1e-12);
-    assert_eq!(standing.distance_to_edge(DVec3::new(9.0, 0.2, 0.0)), 0.0);
+    let place = DVec3::new(0.0, 0.2, 0.0);
+    assert!((outline(std::slice::from_ref(&points), |_| false).distance_to_edge(place) - 0.2).abs() < 1e-12);
+    let standing = outline(&[points], |p| p.y <= 0.0);
+    assert!((standing.distance_to_edge(place) - 0.8).abs() < 1e-12);
+    assert_eq!(
+        outline(&[rectangle((0.0, 0.0), (1.0, 0.0))], |_| true).distance_to_edge(place),
+        f64::INFINITY
+    );
+}
+
+/// A wall of 40 × 20 rectangles, with joints or without, is as one; a place left open is an edge.
+#[test]
+fn many_bricks_clear_from_the_edge_of_the_whole_and_of_its_holes() {
+    for joint in [0.0, 0.5 * JOINT] {
+        let brick = |i: i32, j: i32| {
+            let (x, y) = (f64::from(i) * 0.3, f64::from(j) * 0.2);
+            rectangle((x, y), (x + 0.3 - joint, y + 0.2 - joint))
+        };
+        let all = |hole: bool| -> Vec<Vec<DVec3>> {
+            (0..40)
+                .flat_map(|i| (0..20).map(move |j| (i, j)))
+                .filter(|&(i, j)| !(hole && (18..22).contains(&i) && (8..12).contains(&j)))
+                .map(|(i, j)| brick(i, j))
+                .collect()
+        };
+        let whole = outline(&all(false), |p| p.y <= 0.0);
+        // The hole is the window from (5.4, 1.6) to (6.6, 2.4).
+        let pierced = outline(&all(true), |p| p.y <= 0.0);
+        for (x, y) in [(6.0, 3.1), (3.0, 0.4), (6.9, 2.0), (0.35, 2.0), (5.2, 2.6)] {
+            let place = DVec3::new(x, y, 0.0);
+            let edge = x.min(12.0 - x).min(4.0 - y);
+            let window =
+                DVec2::new((5.4 - x).max(x - 6.6).max(0.0), (1.6 - y).max(y - 2.4).max(0.0)).length();
+            assert!((whole.distance_to_edge(place) - edge).abs() <= joint + 1e-9, "({x}, {y})");
+            let expected = edge.min(window);
+            assert!((pierced.distance_to_edge(place) - expected).abs() <= 2.0 * joint + 1e-9, "({x}, {y})");
+        }
+    }
+}
+
+/// Seen aslant, where no two corners of neighbours project to the same bits, a whole wall still has no rim within.
+#[test]
+fn a_wall_seen_aslant_has_no_rim_inside() {
+    let bricks: Vec<Vec<DVec3>> = (0..6)
+        .flat_map(|row| (0..8).map(move |column| (row, column)))
+        .map(|(row, column)| {
+            let shift = if row % 2 == 0 { 0.0 } else { 0.16 };
+            let low = DVec3::new(f64::from(column) * 0.32 + shift, f64::from(row) * 0.16, 0.0);
+            (0..8)
+                .map(|code| {
+                    let far = |bit: i32| if code & bit == 0 { 0.0 } else { 1.0 };
+                    low + DVec3::new(0.32 * far(1), 0.16 * far(2), 0.1 * far(4))
+                })
+                .collect()
+        })
+        .collect();
+    for direction in [DVec3::new(0.0, 0.012, 1.0), DVec3::new(0.03, -0.02, 1.0), DVec3::new(0.2, 0.1, 1.0)] {
+        let members = bricks.iter().map(|points: &Vec<DVec3>| &points[..]);
+        let outline = Outline::new(members, direction.normalize(), |p| p.y < 0.01);
+        // The middle of the wall's foot is 0.96 m below its top, and farther from its sides; the thickness of 0.1 m
+        // shows by its slope.
+        let place = DVec3::new(1.36, 0.0, 0.0);
+        let distance = outline.distance_to_edge(place);
+        assert!((distance - 0.96).abs() < 0.05, "{direction}: {distance}");
+    }
+}
+
+/// Two wings that stand apart clear from the gap between them, which a convex outline would not see.
+#[test]
+fn a_gap_wider_than_a_joint_relieves() {
+    let wings = |gap: f64| {
+        outline(&[rectangle((-3.0, 0.0), (-gap / 2.0, 3.0)), rectangle((gap / 2.0, 0.0), (3.0, 3.0))], |p| {
+            p.y <= 0.0
+        })
+    };
+    let place = DVec3::new(0.5, 1.0, 0.0);
+    assert!((wings(0.1).distance_to_edge(place) - 0.45).abs() < 1e-9);
+    assert!((wings(0.01).distance_to_edge(place) - 2.0).abs() < 1e-9);
 }
 
 proptest! {

@@ -15,6 +15,7 @@ __all__ = [
     "Pieces",
     "Recording",
     "Scene",
+    "attenuation",
     "crack_time",
     "critical_length",
     "curves",
@@ -40,8 +41,11 @@ __all__ = [
     "reaction_zone",
     "reflection_chart",
     "reflection_coefficient",
+    "ring_values",
+    "sphere_pixels",
     "structure_reaches",
     "structure_response",
+    "unfolded_sphere",
 ]
 
 def curves(
@@ -186,6 +190,18 @@ def hydrocode_charge(
     pressure: float = 101325.0,
     temperature: float = 288.15,
 ) -> dict[str, Any]: ...
+def attenuation(
+    *,
+    blocking: ArrayLike,
+    separation: ArrayLike,
+    offset: float,
+    slope: float,
+    exponent: float,
+    power: float,
+) -> NDArray[float64]: ...
+def ring_values(*, shape: NDArray[bool_]) -> NDArray[uint32]: ...
+def sphere_pixels(*, directions: NDArray[float64], resolution: int) -> NDArray[int64]: ...
+def unfolded_sphere(*, resolution: int) -> NDArray[float64]: ...
 
 @final
 class Scene:
@@ -203,6 +219,7 @@ class Scene:
         drag: Literal["flow-relative", "thesis"],
         pulse: _Pulse,
         negative_phase: bool,
+        occlusion: Mapping[str, bool | int | float | str],
         damping_factor: float,
         rotation_factor: float,
     ) -> Self: ...
@@ -227,6 +244,7 @@ class Scene:
         buried: NDArray[bool_],
         assembly: bool,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: float,
         drag_coefficient: float,
@@ -241,12 +259,16 @@ class Scene:
         orientation: tuple[float, float, float, float],
         mass: float,
         anchored: bool,
+        occludes: bool,
         can_rotate: bool,
         friction: float,
         drag_coefficient: float,
         lift_coefficient: float | None,
     ) -> None: ...
     def centres_of_mass(self) -> NDArray[float64]: ...
+    def middles(self) -> NDArray[float64]: ...
+    def seen_from(self, charge: int) -> tuple[NDArray[int64], NDArray[float64]]: ...
+    def shelter(self, charge: int) -> dict[str, NDArray[float64]]: ...
     def simulate(
         self, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
     ) -> Recording: ...

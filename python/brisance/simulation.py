@@ -87,6 +87,7 @@ def build(scene: Scene) -> Built:
             drag=loading.drag,
             pulse=loading.pulse,
             negative_phase=loading.negative_phase,
+            occlusion=scene.occlusion.model_dump(),
             damping_factor=scene.dynamics.damping_factor,
             rotation_factor=scene.dynamics.rotation_factor,
         )
@@ -143,10 +144,6 @@ def _check_names(scene: Scene, built: Built) -> None:
 
 def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
     warnings = [warning for group in sets for warning in group.warnings]
-    if scene.occlusion.enabled:
-        warnings.append(
-            "occlusion.enabled: this version computes no shelter, so every piece is loaded in full."
-        )
     if scene.dynamics.contacts:
         warnings.append(
             "dynamics.contacts: in this version pieces meet only the ground and pass through each other."

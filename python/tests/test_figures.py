@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 
 from brisance import _engine
 from brisance.errors import InputError
-from brisance.figures import FIGURES, build, example, figure_3_4, painter, wall
+from brisance.figures import FIGURES, build, example, figure_3_4, figure_4_4, painter, wall
 from brisance.figures.raster import Raster
 from brisance.result import Result
 
 NAMES = ["2.3", "2.4", "2.5", "2.6", "table-2.1", "2.7", "2.8", "2.9", "2.10", "2.12", "2.13"]
 NAMES += ["2.14", "2.15", "2.16"]
 NAMES += ["3.1", "3.2", "3.3", "3.4", "3.5", "3.6", "3.7"]
+NAMES += ["4.3", "4.4", "4.5", "4.6", "4.7", "4.8"]
+BLOCKS = ("4.6", "4.7", "4.8")
+"""Figures whose table has a row a block."""
 SMALL = (420, 320)
 
 
@@ -47,7 +50,7 @@ def test_every_figure_is_drawn(name: str, tmp_path: Path) -> None:
     if FIGURES[name].table is not None:
         with paths[1].open(newline="") as file:
             rows = list(csv.reader(file))
-        assert len(rows) > 9
+        assert len(rows) > (9 if name not in BLOCKS else 2)
         assert {len(row) for row in rows} == {len(rows[0])}
 
 
@@ -322,3 +325,40 @@ def test_the_raster_shows_the_nearer_of_two_triangles_whatever_their_order() -> 
     behind = Raster(width=40, height=40, half_width=1.0, half_height=1.0)
     behind.draw(-far[None], np.zeros((1, 3)), np.zeros(1, dtype=int))
     assert not behind.nearness.any()
+
+
+def test_figure_4_3_lays_out_twenty_faces_of_a_thousand_pixels() -> None:
+    data = columns("4.3")
+    assert len(data["face"]) == 20 * 32**2
+    area = 0.5 * np.abs(
+        (data["x1"] - data["x0"]) * (data["y2"] - data["y0"])
+        - (data["x2"] - data["x0"]) * (data["y1"] - data["y0"])
+    )
+    np.testing.assert_allclose(area, np.sqrt(3) / 4 / 32**2, rtol=1e-9)
+
+
+def test_figure_4_4_counts_the_printed_distances() -> None:
+    """The highest value and the sum of the printed cells, added up by hand from the thesis."""
+    data = columns("4.4")
+    assert data["value"].max() == 7
+    assert int((data["value"] > 0).sum()) == sum(row.count("#") for row in figure_4_4.SHAPE)
+    eighth = data["value"][data["row"] == 8]
+    assert eighth.tolist() == [int(digit) for digit in "00001234567654321000"]
+
+
+def test_figure_4_5_is_one_at_the_edge_and_nothing_behind_the_line() -> None:
+    data = columns("4.5")
+    b, k, f = data["blocking_px"], data["separation"], data["attenuation"]
+    assert (f[b == 0] == 1).all()
+    assert (f[b >= 1 + 7 * k] == 0).all()
+    assert (f[(b > 0) & (b < 1 + 7 * k)] < 1).all()
+
+
+def test_figures_4_6_and_4_7_turn_the_order_round() -> None:
+    for name in ("4.6", "4.7"):
+        table = FIGURES[name].table(FIGURES[name].compute())
+        speed = np.asarray(table["launch_speed_m_s"], dtype=float)
+        count = len(speed) // 2
+        assert list(np.argsort(-speed[:count])) == list(range(count))
+        assert list(np.argsort(speed[count:])) == list(range(count))
+    assert set(FIGURES["4.8"].table(FIGURES["4.8"].compute())["scene"]) == {"behind the wall"}

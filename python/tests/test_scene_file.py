@@ -151,6 +151,10 @@ def test_a_scene_survives_being_written_and_read(tmp_path: Path, path: Path) -> 
         ('charge.0.mass="ten"', "charge.0.mass must be a number, not 'ten'"),
         ("charge.0.mass=true", "charge.0.mass must be a number, not true"),
         ("occlusion.resolution=2.5", "occlusion.resolution must be a whole number, not 2.5"),
+        ("occlusion.resolution=3", "occlusion.resolution must be 4 or more, not 3"),
+        ("occlusion.resolution=513", "occlusion.resolution must be 512 or less, not 513"),
+        ('occlusion.parameters="best"', "occlusion.parameters"),
+        ("occlusion.slope=-1", "occlusion.slope must be 0 or more, not -1"),
         ("block.0.anchored=1", "block.0.anchored must be true or false, not 1"),
         ("charge.0.mas=1", "charge.0.mas is not a known key; did you mean mass?"),
         ("charge.0.pos=[0,0,0]", "did you mean position?"),
@@ -283,11 +287,8 @@ def test_a_distance_outside_the_curves_is_a_warning(tmp_path: Path) -> None:
 
 def test_what_this_version_leaves_out_is_said(tmp_path: Path) -> None:
     path = written(tmp_path, SMALL)
-    result = simulate(load(path, ["occlusion.enabled=true", "dynamics.contacts=true"]))
-    assert [warning.split(":")[0] for warning in result.warnings] == [
-        "occlusion.enabled",
-        "dynamics.contacts",
-    ]
+    result = simulate(load(path, ["dynamics.contacts=true"]))
+    assert [warning.split(":")[0] for warning in result.warnings] == ["dynamics.contacts"]
 
 
 def test_python_takes_numpy_and_refuses_text() -> None:

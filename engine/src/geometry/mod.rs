@@ -6,6 +6,7 @@
 mod mass;
 mod mesh;
 mod moments;
+mod outline;
 mod polygon;
 mod prism;
 mod samples;
@@ -15,6 +16,7 @@ mod triangulation;
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;
 pub use moments::PlaneMoments;
+pub use outline::{JOINT, Outline};
 pub use polygon::Polygon;
 pub use prism::{PieceMesh, PieceMeshes};
 pub use samples::{Sample, sample_panels};

@@ -5,8 +5,6 @@ use glam::{DVec2, DVec3};
 /// The convex outline of a set of points projected along a direction onto a plane [m].
 #[derive(Debug, Clone)]
 pub struct Silhouette {
-    right: DVec3,
-    up: DVec3,
     /// Corners of the outline, counter-clockwise, with whether the edge to the next corner is open.
     outline: Vec<(DVec2, bool)>,
 }
@@ -30,7 +28,7 @@ impl Silhouette {
         let count = corners.len();
         let outline =
             (0..count).map(|i| (corners[i].0, !(corners[i].1 && corners[(i + 1) % count].1))).collect();
-        Self { right, up, outline }
+        Self { outline }
     }
 
     /// The smaller of the outline's extents: the least distance between two parallel lines that hold it [m].
@@ -43,15 +41,10 @@ impl Silhouette {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Distance from a point, seen in the plane, to the nearest open edge of the outline [m].
-    ///
-    /// 0 outside the outline; infinite when no edge is open.
-    pub fn distance_to_edge(&self, point: DVec3) -> f64 {
-        let p = DVec2::new(self.right.dot(point), self.up.dot(point));
-        self.edges()
-            .filter(|(_, _, open)| *open)
-            .map(|(a, b, _)| (b - a).normalize_or_zero().perp_dot(p - a).max(0.0))
-            .fold(f64::INFINITY, f64::min)
+    /// Corners of the outline in the plane of `direction`'s orthonormal pair, counter-clockwise, with whether the edge
+    /// to the next one is open.
+    pub fn corners(&self) -> &[(DVec2, bool)] {
+        &self.outline
     }
 
     fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2, bool)> + '_ {

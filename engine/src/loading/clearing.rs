@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::Silhouette;
+use crate::geometry::Outline;
 
 /// How the clearing length S of (2.31) is found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,7 +19,7 @@ pub enum Clearing {
 
 impl Clearing {
     /// Clearing length of a panel [m], given the outlines of its piece and of its assembly.
-    pub fn length(self, panel_centre: DVec3, piece_half_width: f64, assembly: &Silhouette) -> f64 {
+    pub fn length(self, panel_centre: DVec3, piece_half_width: f64, assembly: &Outline) -> f64 {
         match self {
             Self::Assembly => assembly.distance_to_edge(panel_centre).max(piece_half_width),
             Self::Piece => piece_half_width,

@@ -5,13 +5,15 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use super::shelter::Shelters;
 use crate::blast::{BlastField, BlastPoint, Extension};
 use crate::dynamics::RigidBody;
 use crate::error::Result;
-use crate::geometry::{PrincipalAxes, Silhouette};
+use crate::geometry::{Outline, PrincipalAxes, Silhouette};
 use crate::loading::{
     Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
 };
+use crate::occlusion::Shelter;
 use crate::recording::BodyFacts;
 use crate::scene::{Body, Scene, Shape};
 
@@ -95,7 +97,7 @@ struct Geometry {
 }
 
 /// Makes every body of a scene ready. The order is that of the scene.
-pub(super) fn aim(scene: &Scene, fields: &[BlastField]) -> Result<Vec<Target>> {
+pub(super) fn aim(scene: &Scene, fields: &[BlastField], shelters: &Shelters) -> Result<Vec<Target>> {
     let geometries: Vec<Geometry> = scene.bodies.par_iter().map(Geometry::of).collect::<Result<_>>()?;
     let outlines = assembly_outlines(scene, fields, &geometries);
     Ok(scene
@@ -105,7 +107,7 @@ pub(super) fn aim(scene: &Scene, fields: &[BlastField]) -> Result<Vec<Target>> {
         .enumerate()
         .map(|(index, (body, geometry))| {
             let assembly = body.assembly.map(|id| &outlines[&id][..]);
-            target(scene, fields, index, geometry, assembly)
+            target(scene, fields, shelters, index, geometry, assembly)
         })
         .collect())
 }
@@ -158,11 +160,6 @@ impl Geometry {
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
     }
-
-    /// Outline as seen from a place; edges on the ground are closed to the flow.
-    fn outline(&self, eye: DVec3, ground: Option<f64>) -> Silhouette {
-        outline(&self.world_corners, self.body.position, eye, ground)
-    }
 }
 
 fn box_corners(size: DVec3) -> Vec<DVec3> {
@@ -175,10 +172,15 @@ fn box_corners(size: DVec3) -> Vec<DVec3> {
         .collect()
 }
 
-fn outline(points: &[DVec3], middle: DVec3, eye: DVec3, ground: Option<f64>) -> Silhouette {
-    let direction = (middle - eye).try_normalize().unwrap_or(DVec3::Z);
+/// Outline of bodies about `middle` as seen from a place; edges on the ground are closed to the flow.
+fn outline(members: &[&Geometry], middle: DVec3, eye: DVec3, ground: Option<f64>) -> Outline {
     let on_ground = |p: DVec3| ground.is_some_and(|height| p.y < height + 0.01);
-    Silhouette::new(points, direction, on_ground)
+    let points = members.iter().map(|geometry| &geometry.world_corners[..]);
+    Outline::new(points, line_of_sight(middle, eye), on_ground)
+}
+
+fn line_of_sight(middle: DVec3, eye: DVec3) -> DVec3 {
+    (middle - eye).try_normalize().unwrap_or(DVec3::Z)
 }
 
 /// Outlines of every assembly, one a charge.
@@ -186,19 +188,20 @@ fn assembly_outlines(
     scene: &Scene,
     fields: &[BlastField],
     geometries: &[Geometry],
-) -> BTreeMap<u32, Vec<Silhouette>> {
-    let mut points: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
+) -> BTreeMap<u32, Vec<Outline>> {
+    let mut members: BTreeMap<u32, Vec<&Geometry>> = BTreeMap::new();
     for (body, geometry) in scene.bodies.iter().zip(geometries) {
         if let Some(id) = body.assembly {
-            points.entry(id).or_default().extend(&geometry.world_corners);
+            members.entry(id).or_default().push(geometry);
         }
     }
     let ground = scene.ground.map(|g| g.height);
-    points
+    members
         .into_iter()
-        .map(|(id, points)| {
-            let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-            (id, fields.iter().map(|f| outline(&points, middle, f.position(), ground)).collect())
+        .map(|(id, members)| {
+            let points = || members.iter().flat_map(|geometry| &geometry.world_corners);
+            let middle = points().sum::<DVec3>() / points().count() as f64;
+            (id, fields.iter().map(|f| outline(&members, middle, f.position(), ground)).collect())
         })
         .collect()
 }
@@ -206,9 +209,10 @@ fn assembly_outlines(
 fn target(
     scene: &Scene,
     fields: &[BlastField],
+    shelters: &Shelters,
     index: usize,
     geometry: Geometry,
-    assembly: Option<&[Silhouette]>,
+    assembly: Option<&[Outline]>,
 ) -> Target {
     let body = &scene.bodies[index];
     let mut facts = BodyFacts {
@@ -221,24 +225,47 @@ fn target(
     let mut loads = Vec::new();
     let mut winds = Vec::new();
     let mut reach = Vec::with_capacity(fields.len());
+    let mut share = Share::default();
     for (charge, field) in fields.iter().enumerate() {
-        let own = geometry.outline(field.position(), scene.ground.map(|g| g.height));
-        let around = assembly.map_or(&own, |outlines| &outlines[charge]);
+        let eye = field.position();
+        let alone;
+        let around = if let Some(outlines) = assembly {
+            &outlines[charge]
+        } else {
+            alone = outline(&[&geometry], geometry.body.position, eye, scene.ground.map(|g| g.height));
+            &alone
+        };
+        let sight = line_of_sight(geometry.body.position, eye);
+        let half_width = 0.5 * Silhouette::new(&geometry.world_corners, sight, |_| false).least_width();
         let gain = scene.charges[charge].gain;
-        let aimed = Aim { scene, field, gain, body, geometry: &geometry, own: &own, around };
-        let centre = field.at(geometry.body.position);
+        let aimed = Aim {
+            scene,
+            field,
+            shelters,
+            charge,
+            index,
+            gain,
+            body,
+            geometry: &geometry,
+            half_width,
+            around,
+        };
+        let shelter = shelters.body(charge, index);
+        let centre = aimed.at(geometry.body.position, &shelter);
         let first = loads.len();
-        let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts);
+        let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts, &mut share);
         reach.push(extension);
-        if loads.len() > first && scene.loading.drag == Drag::FlowRelative {
-            winds.push(aimed.wind(&centre));
+        if loads.len() > first && scene.loading.drag == Drag::FlowRelative && shelter.attenuation > 0.0 {
+            winds.push(aimed.wind(&centre, shelter.attenuation));
         }
         if centre.distance < facts.distance {
             facts.distance = centre.distance;
             facts.frontal_area = frontal_area;
+            facts.attenuation = shelter.attenuation;
         }
         facts.arrival_time = facts.arrival_time.min(centre.arrival_time);
     }
+    facts.attenuation = share.of_open().unwrap_or(facts.attenuation);
     Target {
         object_from_principal: geometry.object_from_principal,
         bounds: geometry.bounds(),
@@ -263,23 +290,45 @@ fn queue(mut panels: Vec<PanelLoad>, winds: Vec<Wind>) -> LoadQueue {
     }
 }
 
+/// What a body's panels receive of the loads they would have in the open.
+#[derive(Debug, Default)]
+struct Share {
+    /// Reflected impulses toward the body, were they all received, and those received [N s].
+    open: f64,
+    received: f64,
+}
+
+impl Share {
+    /// The share; `None` for a body that no panel of which faces a charge.
+    fn of_open(&self) -> Option<f64> {
+        (self.open > 0.0).then(|| self.received / self.open)
+    }
+}
+
 /// One charge aimed at one body.
 struct Aim<'a> {
     scene: &'a Scene,
     field: &'a BlastField,
+    shelters: &'a Shelters,
+    charge: usize,
+    index: usize,
     gain: f64,
     body: &'a Body,
     geometry: &'a Geometry,
-    own: &'a Silhouette,
-    around: &'a Silhouette,
+    half_width: f64,
+    around: &'a Outline,
 }
 
 impl Aim<'_> {
     /// Appends the load of every panel that has one; returns the frontal area and how far the curves were
     /// stretched for it.
-    fn load_panels(&self, loads: &mut Vec<PanelLoad>, facts: &mut BodyFacts) -> (f64, Extension) {
+    fn load_panels(
+        &self,
+        loads: &mut Vec<PanelLoad>,
+        facts: &mut BodyFacts,
+        share: &mut Share,
+    ) -> (f64, Extension) {
         let state = &self.geometry.body;
-        let half_width = 0.5 * self.own.least_width();
         let lowest = self.scene.ground.map_or(f64::NEG_INFINITY, |g| g.height);
         let settings = HistorySettings {
             mode: self.scene.loading.mode,
@@ -290,25 +339,33 @@ impl Aim<'_> {
         };
         let mut frontal_area = 0.0;
         let mut extension = Extension::Inside;
-        for panel in &self.geometry.panels {
+        for (number, panel) in self.geometry.panels.iter().enumerate() {
             let centre = state.position + state.world_from_principal * panel.centre;
-            let point = self.field.at(centre);
+            let shelter = self.shelters.panel(self.charge, self.index, number);
+            let point = self.at(centre, &shelter);
             let cos_alpha = -(state.world_from_principal * panel.normal).dot(point.direction);
             frontal_area += panel.area * cos_alpha.max(0.0);
             let faces = cos_alpha > 0.0;
             if centre.y < lowest || !(faces || settings.mode == LoadingMode::Surface) {
                 continue;
             }
-            let clearing_length = self.scene.loading.clearing.length(centre, half_width, self.around);
-            let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
-            let drag_coefficient = self.body.drag_coefficient;
-            let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
+            let open = self.gain * point.reflected_impulse * panel.area * cos_alpha.max(0.0);
+            share.open += open;
+            share.received += open * shelter.attenuation;
+            facts.arrival_time = facts.arrival_time.min(point.arrival_time);
+            facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
             if point.extension != Extension::Inside {
                 extension = point.extension;
             }
-            facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
+            if shelter.attenuation == 0.0 {
+                continue;
+            }
+            let clearing_length = self.scene.loading.clearing.length(centre, self.half_width, self.around);
+            let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
+            let drag_coefficient = self.body.drag_coefficient;
+            let settings = HistorySettings { gain: self.gain * shelter.attenuation, ..settings };
+            let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
             facts.peak_load = facts.peak_load.max(history.peak());
-            facts.arrival_time = facts.arrival_time.min(history.arrival());
             let push = -panel.normal * panel.area;
             let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
             loads.push(PanelLoad { history, push, twist });
@@ -316,11 +373,20 @@ impl Aim<'_> {
         (frontal_area, extension)
     }
 
-    fn wind(&self, centre: &BlastPoint) -> Wind {
+    /// The field at a point, which the front reaches by a detour round what is before it.
+    fn at(&self, place: DVec3, shelter: &Shelter) -> BlastPoint {
+        let mut point = self.field.at(place);
+        if shelter.detour > 0.0 {
+            point.arrival_time = self.field.arrival_time(point.distance + shelter.detour);
+        }
+        point
+    }
+
+    fn wind(&self, centre: &BlastPoint, attenuation: f64) -> Wind {
         let loading = &self.scene.loading;
         let mut pulse = centre.pulse(loading.pulse);
         pulse.negative = loading.negative_phase.then(|| self.field.negative_phase(centre.distance));
-        Wind::new(centre, pulse, &self.scene.air, self.gain)
+        Wind::new(centre, pulse, &self.scene.air, self.gain * attenuation)
     }
 }
 

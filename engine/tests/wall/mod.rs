@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 use brisance_engine::air::Air;
 use brisance_engine::charge::Charge;
 use brisance_engine::dynamics::ground::Ground;
+use brisance_engine::occlusion::Settings;
 use brisance_engine::recording::Recording;
 use brisance_engine::scene::{Body, Dynamics, Loading, Scene, Shape, Time};
 use brisance_engine::simulation::Simulation;
@@ -23,6 +24,7 @@ pub fn block(size: DVec3, position: DVec3, mass: f64) -> Body {
         mass,
         assembly: None,
         anchored: false,
+        occludes: true,
         can_rotate: true,
         friction: 0.6,
         drag_coefficient: 1.05,
@@ -60,6 +62,7 @@ pub fn scene(bodies: Vec<Body>, charges: Vec<Charge>) -> Scene {
         bodies,
         time: Time { duration: 0.4, frame_rate: 100.0, step: None },
         loading: Loading::default(),
+        occlusion: Settings::default(),
         dynamics: Dynamics::default(),
     }
 }

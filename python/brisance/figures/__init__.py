@@ -32,6 +32,12 @@ from brisance.figures import (
     figure_3_5,
     figure_3_6,
     figure_3_7,
+    figure_4_3,
+    figure_4_4,
+    figure_4_5,
+    figure_4_6,
+    figure_4_7,
+    figure_4_8,
     table_2_1,
 )
 from brisance.figures.figure import Figure
@@ -58,6 +64,12 @@ _MODULES = (
     figure_3_5,
     figure_3_6,
     figure_3_7,
+    figure_4_3,
+    figure_4_4,
+    figure_4_5,
+    figure_4_6,
+    figure_4_7,
+    figure_4_8,
 )
 
 FIGURES: dict[str, Figure[Any]] = {module.FIGURE.name: module.FIGURE for module in _MODULES}

@@ -38,8 +38,8 @@ class Pattern(Model):
     )
     starts: Count | None = Field(
         default=None,
-        description="In about how many places cracks start, seeds and flaws spread over the pane together, 1 or "
-        "more; left out, in the seeds alone up to 1 500 pieces each, and beyond at a flaw for every 120.",
+        description="In about how many places cracks start, seeds and flaws spread over the pane together, "
+        "1 or more; left out, in the seeds alone up to 1 500 pieces each, and beyond at a flaw for every 120.",
     )
     shape: Literal["segment", "cross", "star"] = Field(
         default="star",

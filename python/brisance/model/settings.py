@@ -91,18 +91,40 @@ class Loading(Model):
 
 
 class Occlusion(Model):
-    """Shelter behind other bodies. `[occlusion]`"""
+    """Shelter behind other bodies. `[occlusion]`
 
-    enabled: StrictBool = Field(
-        default=False, description="Whether bodies shelter one another; default false."
-    )
-    resolution: Annotated[Count, Field(le=4096)] = Field(
+    A body receives the share ``(1 - x^exponent)^power`` of its load, with x its blocking factor over
+    ``offset + slope k`` and k its separation; nothing where x is 1 or more. The defaults are the thesis's.
+    """
+
+    enabled: StrictBool = Field(default=True, description="Whether bodies shelter one another; default true.")
+    resolution: Annotated[Count, Field(ge=4, le=512)] = Field(
         default=32,
-        description="Pixels along an icosahedron edge, 1 to 4096; default 32. More resolves smaller bodies.",
+        description="Pixels along an icosahedron edge, 4 to 512; default 32, about 2 degrees each. More "
+        "resolves smaller bodies, at a cost that grows with its square.",
     )
     per: Literal["body", "panel"] = Field(
         default="body",
-        description="One shelter factor for each body (default) or one for each of its panels.",
+        description="One shelter factor for each body (default) or one for each of its panels, so that one "
+        "side is loaded more than another.",
+    )
+    offset: Positive = Field(
+        default=1.0,
+        description="Blocking factor, in pixels of 2 degrees, that keeps everything off a body close behind "
+        "its shelter, above 0; default 1. More shelters less.",
+    )
+    slope: NotNegative = Field(
+        default=7.0,
+        description="By how much that blocking factor grows with the separation, 0 or more; default 7. More "
+        "lets the wave close sooner behind a shelter.",
+    )
+    exponent: Positive = Field(
+        default=1.5,
+        description="Exponent of the blocking factor, above 0; default 1.5. More shelters less near a "
+        "shelter's edge.",
+    )
+    power: Positive = Field(
+        default=2.0, description="Exponent of the whole, above 0; default 2. More shelters more."
     )
 
 

@@ -90,6 +90,7 @@ def wall_pieces(wall: BrickWall, *, name: str) -> PieceSet:
             buried=bricks.buried,
             assembly=True,
             anchored=wall.anchored,
+            occludes=wall.occludes,
             can_rotate=wall.can_rotate,
             friction=wall.friction,
             drag_coefficient=wall.drag_coefficient,

@@ -58,6 +58,7 @@ class MeshBody:
             orientation=self.obj.orientation(),
             mass=self.mass,
             anchored=self.obj.anchored,
+            occludes=self.obj.occludes,
             can_rotate=self.obj.can_rotate,
             friction=self.obj.friction,
             drag_coefficient=self.obj.drag_coefficient,
