@@ -4,13 +4,14 @@ mod targets;
 
 use std::ops::ControlFlow;
 
+use fearless_simd::Level;
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 use crate::blast::{BlastField, Extension};
 use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
 use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Carry, Footing, GRAVITY, RigidBody, Support, Winds};
+use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, LANES, RigidBody, Support, Winds};
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
@@ -18,12 +19,12 @@ use targets::{LoadQueue, Target};
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
-/// Bodies a thread takes at once.
-const CHUNK: usize = 256;
+/// Blocks of bodies a thread takes at once.
+const CHUNK: usize = 32;
 
 /// A scene made ready to run.
 pub struct Simulation {
-    bodies: Vec<RigidBody>,
+    bodies: Bodies,
     phases: Vec<Phase>,
     lives: Vec<Life>,
     support: Support,
@@ -66,6 +67,8 @@ enum Phase {
 struct World {
     ground: Option<Ground>,
     air: Air,
+    /// Instructions the processor has.
+    level: Level,
 }
 
 /// What is needed of a body beside its state, and less often.
@@ -141,13 +144,14 @@ impl Simulation {
             })
             .collect();
         Ok(Self {
-            bodies,
+            bodies: Bodies::new(&bodies),
             phases,
             lives,
             support,
             world: World {
                 ground: scene.ground,
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
+                level: Level::new(),
             },
             frames: scene.time.frames(),
             frame_rate: scene.time.frame_rate,
@@ -185,7 +189,8 @@ impl Simulation {
             }
             self.record(frame, &mut recording);
         }
-        recording.facts = self.bodies.iter().zip(self.lives).map(|(body, life)| life.finish(body)).collect();
+        let bodies = (0..self.bodies.len()).map(|index| self.bodies.get(index));
+        recording.facts = bodies.zip(self.lives).map(|(body, life)| life.finish(&body)).collect();
         recording.warnings = self.warnings;
         Ok(recording)
     }
@@ -193,26 +198,27 @@ impl Simulation {
     /// One step of every body, then what they change for each other.
     fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
         let (world, support) = (&self.world, &self.support);
-        let one = |(index, ((body, phase), life)): (usize, ((&mut RigidBody, &mut Phase), &mut Life))| {
-            world.step(body, phase, life, support.carry(index), t0, t1)
+        let (blocks, shared) = (self.bodies.blocks_mut(), self.phases.len() >= WORTH_SHARING);
+        let one = |(index, ((block, phases), lives))| {
+            world.step_block(block, phases, lives, |lane| support.carry(index * LANES + lane), t0, t1)
         };
-        let concern = if self.bodies.len() < WORTH_SHARING {
-            self.bodies
-                .iter_mut()
-                .zip(&mut self.phases)
-                .zip(&mut self.lives)
-                .enumerate()
-                .map(one)
-                .fold(Concern::Nothing, Concern::max)
-        } else {
-            self.bodies
+        let concern = if shared {
+            blocks
                 .par_iter_mut()
-                .zip(&mut self.phases)
-                .zip(&mut self.lives)
+                .zip(self.phases.par_chunks_mut(LANES))
+                .zip(self.lives.par_chunks_mut(LANES))
                 .enumerate()
                 .with_min_len(CHUNK)
                 .map(one)
                 .reduce(|| Concern::Nothing, Concern::max)
+        } else {
+            blocks
+                .iter_mut()
+                .zip(self.phases.chunks_mut(LANES))
+                .zip(self.lives.chunks_mut(LANES))
+                .enumerate()
+                .map(one)
+                .fold(Concern::Nothing, Concern::max)
         };
         if concern == Concern::Settles {
             self.settle(t1, left);
@@ -220,7 +226,7 @@ impl Simulation {
         let slides = concern >= Concern::Slides;
         if slides || self.slid {
             let (bodies, lives) = (&self.bodies, &self.lives);
-            self.support.pass_on(|i| bodies[i].velocity, |i| lives[i].rubbed);
+            self.support.pass_on(|i| bodies.get(i).velocity, |i| lives[i].rubbed);
         }
         self.slid = slides;
     }
@@ -232,10 +238,11 @@ impl Simulation {
             match life.change.take() {
                 Some(Phase::Free) => left.push(index),
                 Some(Phase::Standing) => {
-                    let body = &mut self.bodies[index];
+                    let mut body = self.bodies.get(index);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
-                    life.place = Place::new(body, life.extent, life.ground_friction);
+                    self.bodies.set(index, &body);
+                    life.place = Place::new(&body, life.extent, life.ground_friction);
                     life.facts.rest_time = now - CALM_TIME;
                     self.support.stand_up(index);
                     self.phases[index] = Phase::Standing;
@@ -258,7 +265,8 @@ impl Simulation {
     fn record(&self, frame: usize, recording: &mut Recording) {
         recording.times.push(frame as f64 / self.frame_rate);
         let count = self.bodies.len();
-        for (index, (body, life)) in self.bodies.iter().zip(&self.lives).enumerate() {
+        for (index, life) in self.lives.iter().enumerate() {
+            let body = self.bodies.get(index);
             recording.positions.push(body.position.as_vec3());
             let rotation =
                 (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
@@ -270,7 +278,39 @@ impl Simulation {
 }
 
 impl World {
-    /// One step of one body. Returns what of it concerns others.
+    /// One step of the bodies in a block: those in flight together, the others one by one. Returns the gravest of
+    /// what concerns others.
+    fn step_block<'a>(
+        &self,
+        block: &mut Block,
+        phases: &mut [Phase],
+        lives: &mut [Life],
+        carry: impl Fn(usize) -> &'a Carry,
+        t0: f64,
+        t1: f64,
+    ) -> Concern {
+        let flying = std::array::from_fn(|lane| phases.get(lane) == Some(&Phase::Flying));
+        if flying.contains(&true) {
+            block.fly(self.level, flying, self.air, t1 - t0);
+        }
+        if !flying.contains(&false) && self.ground.is_none_or(|ground| !ground.is_near(block.lowest())) {
+            return Concern::Nothing;
+        }
+        let mut gravest = Concern::Nothing;
+        for (lane, (phase, life)) in phases.iter_mut().zip(lives).enumerate() {
+            let carry = carry(lane);
+            if *phase == Phase::Standing && !life.queue.acts(t0, t1) && !carry.is_moved() {
+                life.rubbed = DVec3::ZERO;
+                continue;
+            }
+            let mut body = block.get(lane);
+            gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
+            block.set(lane, &body);
+        }
+        gravest
+    }
+
+    /// One step of one body; what flies has already flown. Returns what of it concerns others.
     fn step(
         &self,
         body: &mut RigidBody,
@@ -281,15 +321,8 @@ impl World {
         t1: f64,
     ) -> Concern {
         let concern = match phase {
-            Phase::Flying => {
-                body.fly(self.air, t1 - t0);
-                return self.land(body, life, t1 - t0);
-            }
+            Phase::Flying => return self.land(body, life, t1 - t0),
             Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Standing if !life.queue.acts(t0, t1) && !carry.is_moved() => {
-                life.rubbed = DVec3::ZERO;
-                return Concern::Nothing;
-            }
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
@@ -366,7 +399,9 @@ impl World {
     /// Lets a body that has just moved meet the ground, and notices when it has come to rest.
     #[inline]
     fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> Concern {
-        let Some(ground) = self.ground.filter(|ground| ground.is_near(body)) else { return Concern::Nothing };
+        let Some(ground) = self.ground.filter(|ground| ground.is_near(body.position.y - body.reach)) else {
+            return Concern::Nothing;
+        };
         let calm = ground.meet(body, &life.corners, life.ground_friction);
         life.calm = if calm { life.calm + dt } else { 0.0 };
         if life.calm < CALM_TIME {

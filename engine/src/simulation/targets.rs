@@ -128,7 +128,10 @@ impl Geometry {
             .collect();
         let corners: Box<[DVec3]> = corners.into_iter().map(|p| into_principal * p).collect();
         let areas = match body.shape {
-            Shape::Box { size, .. } => DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y),
+            Shape::Box { size, .. } => {
+                let size = (into_principal * size).abs();
+                DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y)
+            }
             Shape::Mesh(_) => panels.iter().map(|p| p.normal.abs() * (0.5 * p.area)).sum(),
         };
         let may_turn = body.can_rotate && !body.anchored;
@@ -139,7 +142,7 @@ impl Geometry {
             angular_momentum: DVec3::ZERO,
             inverse_mass: 1.0 / body.mass,
             inverse_moments: if may_turn { axes.moments.recip() } else { DVec3::ZERO },
-            resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient),
+            resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient, body.mass),
             reach: corners.iter().map(|c| c.length()).fold(0.0, f64::max),
         };
         let world_corners =
