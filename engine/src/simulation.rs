@@ -326,7 +326,7 @@ impl World {
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
-                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
                 }
@@ -344,8 +344,8 @@ impl World {
     }
 
     /// Puts panel loads and wind on a body's velocity and angular momentum; returns the impulse [N s].
-    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64) -> DVec3 {
-        let (impulse, angular) = queue.take(t0, t1);
+    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64, free: bool) -> DVec3 {
+        let (impulse, angular) = queue.take(t0, t1, free);
         body.push(impulse, angular);
         let winds = Winds { winds: &queue.winds, air: self.air };
         body.world_from_principal * impulse + body.blow(winds, t0, t1)
@@ -361,7 +361,7 @@ impl World {
         t1: f64,
     ) -> Concern {
         let before = body.velocity;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
         let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
         life.rubbed = rubbed;
         match outcome {
@@ -389,7 +389,7 @@ impl World {
         let before = body.velocity;
         let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
         body.velocity += half_fall;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, true);
         body.velocity += half_fall;
         body.position += (before + body.velocity) * (0.5 * dt);
         body.turn(dt);

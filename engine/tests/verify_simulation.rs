@@ -5,9 +5,10 @@ mod wall;
 use brisance_engine::air::Air;
 use brisance_engine::blast::BlastField;
 use brisance_engine::charge::Charge;
+use brisance_engine::dynamics::GRAVITY;
 use brisance_engine::loading::{Clearing, Drag, LoadingMode};
 use brisance_engine::recording::Recording;
-use brisance_engine::scene::Scene;
+use brisance_engine::scene::{Scene, Shape, Time};
 use glam::{DQuat, DVec3};
 use wall::{BRICK, block, bricks, run, scene, wall};
 
@@ -201,4 +202,28 @@ fn bodies_out_of_reach_are_extended_with_a_warning() {
     assert!(far.warnings.iter().any(|w| w.contains("farther")), "{:?}", far.warnings);
     let near = run(&lone(DVec3::splat(0.1), DVec3::new(0.0, 0.0, 0.29), 1.0));
     assert!(near.facts[0].impulse.z > 0.0);
+}
+
+/// With surface loading, what presses a body down from above is answered from below once it is free, also where it lay
+/// against something at the start: level with the charge it then only falls.
+#[test]
+fn a_face_laid_bare_feels_the_wave() {
+    let drop = |buried: bool| {
+        let mut scene = lone(BRICK, DVec3::new(0.0, 0.0, 15.0), 0.1);
+        scene.bodies[0].shape =
+            Shape::Box { size: BRICK, buried: [false, false, buried, false, false, false] };
+        scene.bodies[0].can_rotate = false;
+        scene.bodies[0].drag_coefficient = 0.0;
+        scene.loading.mode = LoadingMode::Surface;
+        scene.time = Time { duration: 0.06, frame_rate: 1000.0, step: Some(1e-4) };
+        let recording = run(&scene);
+        let left = recording.positions.iter().position(|p| p.z > 15.0 + 0.05).unwrap();
+        (f64::from(recording.positions[60].y), 0.06 - recording.times[left])
+    };
+    for buried in [false, true] {
+        let (height, fall) = drop(buried);
+        // It leaves within a frame before it has slid 5 cm. Its top alone would press it down by two metres.
+        let free = -0.5 * GRAVITY * fall * fall;
+        assert!((height - free).abs() < GRAVITY * fall * 2e-3, "buried {buried}: {height} and {free}");
+    }
 }

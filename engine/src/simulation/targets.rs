@@ -49,13 +49,17 @@ struct PanelLoad {
     push: DVec3,
     /// Arm × push, with the art direction's rotation factor [m³].
     twist: DVec3,
+    /// It counts only once the body is free: a neighbour or the ground lies against it until then.
+    buried: bool,
 }
 
 impl LoadQueue {
-    /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes.
-    pub fn take(&mut self, t0: f64, t1: f64) -> (DVec3, DVec3) {
+    /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes; `free` says
+    /// whether those that were buried are laid bare.
+    pub fn take(&mut self, t0: f64, t1: f64, free: bool) -> (DVec3, DVec3) {
         let (mut impulse, mut angular) = (DVec3::ZERO, DVec3::ZERO);
-        for load in self.panels[self.next..].iter().take_while(|load| load.history.arrival() < t1) {
+        let begun = self.panels[self.next..].iter().take_while(|load| load.history.arrival() < t1);
+        for load in begun.filter(|load| free || !load.buried) {
             let strength = load.history.impulse(t0, t1);
             impulse += load.push * strength;
             angular += load.twist * strength;
@@ -88,8 +92,8 @@ impl LoadQueue {
 struct Geometry {
     body: RigidBody,
     object_from_principal: DQuat,
-    /// In principal axes.
-    panels: Vec<Panel>,
+    /// In principal axes, each with whether it is buried at the start.
+    panels: Vec<(Panel, bool)>,
     corners: Box<[DVec3]>,
     world_corners: Vec<DVec3>,
 }
@@ -115,24 +119,28 @@ impl Geometry {
         let properties = body.mass_properties()?;
         let axes = PrincipalAxes::of(properties.inertia);
         let into_principal = axes.object_from_principal.conjugate();
-        let (panels, corners) = match &body.shape {
-            Shape::Box { size, buried } => (box_panels(*size, *buried), box_corners(*size)),
+        let (open, buried, corners) = match &body.shape {
+            Shape::Box { size, buried } => {
+                let hidden = box_panels(*size, buried.map(|face| !face));
+                (box_panels(*size, *buried), hidden, box_corners(*size))
+            }
             Shape::Mesh(mesh) => {
                 let centred = mesh.extreme_points().into_iter().map(|p| p - properties.centre).collect();
-                (mesh_panels(mesh, properties.centre), centred)
+                (mesh_panels(mesh, properties.centre), Vec::new(), centred)
             }
         };
-        let panels: Vec<Panel> = panels
-            .into_iter()
-            .map(|p| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p })
-            .collect();
+        let principal =
+            |p: Panel| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p };
+        let open = open.into_iter().map(|p| (principal(p), false));
+        let panels: Vec<(Panel, bool)> =
+            open.chain(buried.into_iter().map(|p| (principal(p), true))).collect();
         let corners: Box<[DVec3]> = corners.into_iter().map(|p| into_principal * p).collect();
         let areas = match body.shape {
             Shape::Box { size, .. } => {
                 let size = (into_principal * size).abs();
                 DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y)
             }
-            Shape::Mesh(_) => panels.iter().map(|p| p.normal.abs() * (0.5 * p.area)).sum(),
+            Shape::Mesh(_) => panels.iter().map(|(p, _)| p.normal.abs() * (0.5 * p.area)).sum(),
         };
         let may_turn = body.can_rotate && !body.anchored;
         let state = RigidBody {
@@ -233,7 +241,8 @@ fn target(
         let first = loads.len();
         let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts);
         reach.push(extension);
-        if loads.len() > first && scene.loading.drag == Drag::FlowRelative {
+        let struck = loads[first..].iter().any(|load| !load.buried);
+        if struck && scene.loading.drag == Drag::FlowRelative {
             winds.push(aimed.wind(&centre));
         }
         if centre.distance < facts.distance {
@@ -293,28 +302,39 @@ impl Aim<'_> {
         };
         let mut frontal_area = 0.0;
         let mut extension = Extension::Inside;
-        for panel in &self.geometry.panels {
+        let surface = settings.mode == LoadingMode::Surface;
+        let open_only = |(_, buried): &&(Panel, bool)| surface || !buried;
+        for &(panel, buried) in self.geometry.panels.iter().filter(open_only) {
             let centre = state.position + state.world_from_principal * panel.centre;
             let point = self.field.at(centre);
             let cos_alpha = -(state.world_from_principal * panel.normal).dot(point.direction);
-            frontal_area += panel.area * cos_alpha.max(0.0);
-            let faces = cos_alpha > 0.0;
-            if centre.y < lowest || !(faces || settings.mode == LoadingMode::Surface) {
+            let faces = cos_alpha > 0.0 && !buried;
+            if faces {
+                frontal_area += panel.area * cos_alpha;
+            }
+            if (centre.y < lowest && !buried) || !(faces || surface) {
                 continue;
             }
             let clearing_length = self.scene.loading.clearing.length(centre, half_width, self.around);
-            let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
+            let face = match (faces, buried) {
+                (true, _) => Face::Front { clearing_length },
+                (false, false) => Face::Rear { clearing_length },
+                // No shock strikes a face that is laid bare while the wave is passing: it feels what is there.
+                (false, true) => Face::Rear { clearing_length: 0.0 },
+            };
             let drag_coefficient = self.body.drag_coefficient;
             let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
             if point.extension != Extension::Inside {
                 extension = point.extension;
             }
             facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
-            facts.peak_load = facts.peak_load.max(history.peak());
+            if !buried {
+                facts.peak_load = facts.peak_load.max(history.peak());
+            }
             facts.arrival_time = facts.arrival_time.min(history.arrival());
             let push = -panel.normal * panel.area;
             let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
-            loads.push(PanelLoad { history, push, twist });
+            loads.push(PanelLoad { history, push, twist, buried });
         }
         (frontal_area, extension)
     }
