@@ -1,5 +1,6 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
+mod later;
 mod targets;
 
 use std::ops::ControlFlow;
@@ -15,7 +16,8 @@ use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, LANES, RigidB
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
-use targets::{LoadQueue, Target};
+use later::Later;
+use targets::{LoadQueue, Peaks, Shot, Target};
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
@@ -28,6 +30,8 @@ pub struct Simulation {
     phases: Vec<Phase>,
     lives: Vec<Life>,
     support: Support,
+    /// Fronts that come after bodies have left their places.
+    later: Option<Later>,
     world: World,
     frames: usize,
     frame_rate: f64,
@@ -86,6 +90,10 @@ struct Life {
     /// Impulse of friction in the last step [N s].
     rubbed: DVec3,
     launched: bool,
+    /// Whether it has ever left its place.
+    away: bool,
+    /// Per charge, what it alone does at most.
+    peaks: Vec<Peaks>,
     /// What the last step asks to be settled between the bodies.
     change: Option<Phase>,
     facts: BodyFacts,
@@ -148,6 +156,7 @@ impl Simulation {
             phases,
             lives,
             support,
+            later: Later::new(scene, fields),
             world: World {
                 ground: scene.ground,
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
@@ -197,6 +206,7 @@ impl Simulation {
 
     /// One step of every body, then what they change for each other.
     fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
+        self.meet_fronts(t1);
         let (world, support) = (&self.world, &self.support);
         let (blocks, shared) = (self.bodies.blocks_mut(), self.phases.len() >= WORTH_SHARING);
         let one = |(index, ((block, phases), lives))| {
@@ -231,6 +241,17 @@ impl Simulation {
         self.slid = slides;
     }
 
+    /// Aims the charges whose fronts come by `t1` at the bodies that have left their places.
+    fn meet_fronts(&mut self, t1: f64) {
+        let Some(later) = &mut self.later else { return };
+        for (index, charge, shot) in later.reached(t1, |index| self.bodies.get(index)) {
+            self.lives[index].strike(charge, shot);
+            if self.phases[index] == Phase::Flying {
+                self.phases[index] = Phase::Free;
+            }
+        }
+    }
+
     /// Bodies that left let down what they carried; bodies that came to rest carry themselves again.
     fn settle(&mut self, now: f64, left: &mut Vec<usize>) {
         left.clear();
@@ -259,6 +280,10 @@ impl Simulation {
             let life = &mut self.lives[index];
             life.facts.rest_time = f64::NAN;
             life.calm = 0.0;
+            if let Some(later) = self.later.as_mut().filter(|_| !life.away) {
+                later.put_off(index, &self.bodies.get(index), &mut life.queue, now);
+            }
+            life.away = true;
         }
     }
 
@@ -335,7 +360,7 @@ impl World {
         };
         if !life.launched && life.queue.end <= t1 {
             life.launched = true;
-            life.facts.launch_speed = body.velocity.length();
+            life.facts.launch_speed = life.facts.launch_speed.max(body.velocity.length());
         }
         if *phase == Phase::Free && life.launched {
             *phase = Phase::Flying;
@@ -420,6 +445,8 @@ impl Life {
         Self {
             place: Place::new(&target.body, extent, in_place),
             launched: target.queue.end <= 0.0,
+            away: false,
+            peaks: target.peaks,
             queue: target.queue,
             corners: target.corners,
             object_from_principal: target.object_from_principal,
@@ -432,9 +459,18 @@ impl Life {
         }
     }
 
+    /// Takes a charge's loads anew.
+    fn strike(&mut self, charge: usize, shot: Shot) {
+        self.peaks[charge] = shot.peaks;
+        self.facts.peak_overpressure = self.peaks.iter().map(|p| p.overpressure).fold(0.0, f64::max);
+        self.facts.peak_load = self.peaks.iter().map(|p| p.load).fold(0.0, f64::max);
+        self.queue.replace(shot);
+        self.launched = false;
+    }
+
     fn finish(mut self, body: &RigidBody) -> BodyFacts {
         if !self.launched {
-            self.facts.launch_speed = body.velocity.length();
+            self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
         }
         self.facts
     }

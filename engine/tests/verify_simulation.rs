@@ -227,3 +227,61 @@ fn a_face_laid_bare_feels_the_wave() {
         assert!((height - free).abs() < GRAVITY * fall * 2e-3, "buried {buried}: {height} and {free}");
     }
 }
+
+/// Two charges one second apart, an animator's scene: what the first has thrown is hit by the second where it is then.
+/// The truth is a run of the second charge alone on a brick that stands in the air at that very place.
+#[test]
+fn a_later_charge_hits_a_body_where_it_is() {
+    let late = |position: DVec3| Charge { time: 1.0, ..Charge::tnt(20.0, position) };
+    // To the left of the falling brick and in front of it; far below its first place.
+    let second = late(DVec3::new(-6.0, -4.0, 17.0));
+    let mut both = lone(BRICK, DVec3::new(0.0, 0.0, 15.0), 10.0);
+    both.bodies[0].can_rotate = false;
+    both.bodies[0].assembly = Some(0);
+    both.loading.drag = Drag::Thesis;
+    both.loading.clearing = Clearing::Piece;
+    both.time = Time { duration: 1.2, frame_rate: 1000.0, step: Some(1e-3) };
+    let alone = run(&both);
+    both.charges.push(second.clone());
+    let hit = run(&both);
+
+    let field = BlastField::new(&second, &both.air).unwrap();
+    let arrives = |frame: &usize| {
+        let place = alone.positions[*frame].as_dvec3();
+        field.arrival_time(place.distance(second.position)) <= alone.times[*frame]
+    };
+    let frame = (0..alone.times.len()).find(arrives).unwrap();
+    assert!(frame > 1000, "it is in the air when the front comes");
+    let place = alone.positions[frame].as_dvec3();
+    assert!(place.z > 15.3 && place.y < -3.0, "it has flown: {place}");
+    assert_eq!(hit.positions[frame - 1], alone.positions[frame - 1], "nothing happens before");
+
+    let mut there = lone(BRICK, place, 10.0);
+    there.bodies[0].can_rotate = false;
+    there.loading = both.loading;
+    there.charges = vec![second];
+    there.time = both.time;
+    let truth = run(&there).facts[0];
+    let gained = hit.facts[0].impulse - alone.facts[0].impulse;
+    // It falls 9 mm in a step, 0.15 % of the distance.
+    assert!(gained.distance(truth.impulse) < 0.01 * truth.impulse.length(), "{gained} and {}", truth.impulse);
+    assert!(gained.x > 0.0 && gained.z < 0.0, "away from the charge");
+    assert!((hit.facts[0].peak_overpressure / truth.peak_overpressure - 1.0).abs() < 0.01);
+}
+
+/// A body that still stands where it stood is hit there, with its company, whatever the charge's time.
+#[test]
+fn a_later_charge_hits_what_still_stands_in_its_place() {
+    let mut scene = wall();
+    scene.charges[0].mass = 1.0;
+    for body in &mut scene.bodies {
+        body.friction = 5.0;
+    }
+    scene.time.duration = 1.2;
+    let mut late = scene.clone();
+    late.charges.push(Charge { time: 1.0, ..scene.charges[0].clone() });
+    let (first, both) = (run(&scene), run(&late));
+    for (one, two) in first.facts.iter().zip(&both.facts) {
+        assert!(two.impulse.distance(one.impulse * 2.0) < 1e-9 * one.impulse.length());
+    }
+}

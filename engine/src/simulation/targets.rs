@@ -27,15 +27,28 @@ pub(super) struct Target {
     pub facts: BodyFacts,
     /// Per charge: nearer than the curves reach, farther than they reach.
     pub reach: Vec<Extension>,
+    /// Per charge: what it alone does at most.
+    pub peaks: Vec<Peaks>,
+}
+
+/// The worst that one charge does to one body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Peaks {
+    /// Incident overpressure [Pa].
+    pub overpressure: f64,
+    /// Pressure on the most loaded panel [Pa].
+    pub load: f64,
 }
 
 /// The loads of one body in the order of their arrival.
 #[derive(Debug, Default)]
 pub(super) struct LoadQueue {
-    panels: Box<[PanelLoad]>,
+    panels: Vec<PanelLoad>,
     /// Panels before this one have been loaded to the end.
     next: usize,
-    pub winds: Box<[Wind]>,
+    pub winds: Vec<Wind>,
+    /// Which charge each wind comes from.
+    wind_charges: Vec<usize>,
     /// When the first load arrives and the last one ends [s].
     pub start: f64,
     pub end: f64,
@@ -44,6 +57,7 @@ pub(super) struct LoadQueue {
 /// Load of one charge on one panel, with its lever on the body, in principal axes.
 #[derive(Debug)]
 struct PanelLoad {
+    charge: usize,
     history: FaceHistory,
     /// Area × inward normal [m²].
     push: DVec3,
@@ -54,6 +68,47 @@ struct PanelLoad {
 }
 
 impl LoadQueue {
+    fn new(shots: impl Iterator<Item = Shot>) -> Self {
+        let mut queue = Self::default();
+        for shot in shots {
+            queue.winds.extend(shot.wind);
+            queue.wind_charges.resize(queue.winds.len(), shot.charge);
+            queue.panels.extend(shot.panels);
+        }
+        queue.sort();
+        queue
+    }
+
+    fn sort(&mut self) {
+        self.panels.sort_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
+        let spans = (self.panels.iter().map(|l| (l.history.arrival(), l.history.end())))
+            .chain(self.winds.iter().map(|w| (w.arrival, w.end)));
+        (self.start, self.end) = spans
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(start, end), (from, to)| {
+                (start.min(from), end.max(to))
+            });
+    }
+
+    /// Puts in the loads of one charge, in place of those it had.
+    pub fn replace(&mut self, shot: Shot) {
+        self.remove(shot.charge);
+        self.winds.extend(shot.wind);
+        self.wind_charges.resize(self.winds.len(), shot.charge);
+        self.panels.extend(shot.panels);
+        self.sort();
+    }
+
+    /// Takes out the loads of one charge.
+    pub fn remove(&mut self, charge: usize) {
+        self.panels.drain(..self.next);
+        self.next = 0;
+        self.panels.retain(|load| load.charge != charge);
+        let mut from = self.wind_charges.iter();
+        self.winds.retain(|_| from.next() != Some(&charge));
+        self.wind_charges.retain(|&from| from != charge);
+        self.sort();
+    }
+
     /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes; `free` says
     /// whether those that were buried are laid bare.
     pub fn take(&mut self, t0: f64, t1: f64, free: bool) -> (DVec3, DVec3) {
@@ -153,14 +208,12 @@ impl Geometry {
             resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient, body.mass),
             reach: corners.iter().map(|c| c.length()).fold(0.0, f64::max),
         };
-        let world_corners =
-            corners.iter().map(|&c| state.position + state.world_from_principal * c).collect();
         Ok(Self {
             body: state,
             object_from_principal: axes.object_from_principal,
             panels,
+            world_corners: world_corners(&state, &corners),
             corners,
-            world_corners,
         })
     }
 
@@ -174,6 +227,10 @@ impl Geometry {
     fn outline(&self, eye: DVec3, ground: Option<f64>) -> Silhouette {
         outline(&self.world_corners, self.body.position, eye, ground)
     }
+}
+
+fn world_corners(body: &RigidBody, corners: &[DVec3]) -> Vec<DVec3> {
+    corners.iter().map(|&c| body.position + body.world_from_principal * c).collect()
 }
 
 fn box_corners(size: DVec3) -> Vec<DVec3> {
@@ -221,87 +278,132 @@ fn target(
     geometry: Geometry,
     assembly: Option<&[Silhouette]>,
 ) -> Target {
-    let body = &scene.bodies[index];
+    let shots: Vec<Shot> = (0..fields.len())
+        .map(|charge| {
+            shot(scene, fields, charge, index, &geometry, assembly.map(|outlines| &outlines[charge]))
+        })
+        .collect();
     let mut facts = BodyFacts {
-        mass: body.mass,
+        mass: scene.bodies[index].mass,
         distance: f64::INFINITY,
         arrival_time: f64::INFINITY,
         attenuation: 1.0,
         ..BodyFacts::default()
     };
-    let mut loads = Vec::new();
-    let mut winds = Vec::new();
-    let mut reach = Vec::with_capacity(fields.len());
-    for (charge, field) in fields.iter().enumerate() {
-        let own = geometry.outline(field.position(), scene.ground.map(|g| g.height));
-        let around = assembly.map_or(&own, |outlines| &outlines[charge]);
-        let gain = scene.charges[charge].gain;
-        let aimed = Aim { scene, field, gain, body, geometry: &geometry, own: &own, around };
-        let centre = field.at(geometry.body.position);
-        let first = loads.len();
-        let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts);
-        reach.push(extension);
-        let struck = loads[first..].iter().any(|load| !load.buried);
-        if struck && scene.loading.drag == Drag::FlowRelative {
-            winds.push(aimed.wind(&centre));
+    for shot in &shots {
+        if shot.distance < facts.distance {
+            facts.distance = shot.distance;
+            facts.frontal_area = shot.frontal_area;
         }
-        if centre.distance < facts.distance {
-            facts.distance = centre.distance;
-            facts.frontal_area = frontal_area;
-        }
-        facts.arrival_time = facts.arrival_time.min(centre.arrival_time);
+        facts.arrival_time = facts.arrival_time.min(shot.arrival);
+        facts.peak_overpressure = facts.peak_overpressure.max(shot.peaks.overpressure);
+        facts.peak_load = facts.peak_load.max(shot.peaks.load);
     }
     Target {
         object_from_principal: geometry.object_from_principal,
         bounds: geometry.bounds(),
         corners: geometry.corners,
         body: geometry.body,
-        queue: queue(loads, winds),
         facts,
-        reach,
+        reach: shots.iter().map(|shot| shot.extension).collect(),
+        peaks: shots.iter().map(|shot| shot.peaks).collect(),
+        queue: LoadQueue::new(shots.into_iter()),
     }
 }
 
-fn queue(mut panels: Vec<PanelLoad>, winds: Vec<Wind>) -> LoadQueue {
-    panels.sort_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
-    let starts = panels.iter().map(|l| l.history.arrival()).chain(winds.iter().map(|w| w.arrival));
-    let ends = panels.iter().map(|l| l.history.end()).chain(winds.iter().map(|w| w.end));
-    LoadQueue {
-        start: starts.fold(f64::INFINITY, f64::min),
-        end: ends.fold(f64::NEG_INFINITY, f64::max),
-        panels: panels.into(),
-        next: 0,
-        winds: winds.into(),
-    }
+/// A charge aimed at a body that has left its place: where it is now, turned as it is, alone and with all faces bare.
+pub(super) fn aim_anew(
+    scene: &Scene,
+    fields: &[BlastField],
+    charge: usize,
+    index: usize,
+    body: RigidBody,
+) -> Shot {
+    let mut geometry = Geometry::of(&scene.bodies[index]).expect("it was aimed at before");
+    geometry.body = body;
+    geometry.world_corners = world_corners(&body, &geometry.corners);
+    geometry.panels.iter_mut().for_each(|(_, buried)| *buried = false);
+    shot(scene, fields, charge, index, &geometry, None)
+}
+
+/// What one charge does to one body.
+pub(super) struct Shot {
+    charge: usize,
+    panels: Vec<PanelLoad>,
+    wind: Option<Wind>,
+    /// Open area projected toward the charge [m²].
+    frontal_area: f64,
+    /// From the charge to the centre of mass [m].
+    distance: f64,
+    /// When the front comes [s].
+    arrival: f64,
+    pub peaks: Peaks,
+    /// How far the curves were stretched for it.
+    extension: Extension,
+}
+
+fn shot(
+    scene: &Scene,
+    fields: &[BlastField],
+    charge: usize,
+    index: usize,
+    geometry: &Geometry,
+    assembly: Option<&Silhouette>,
+) -> Shot {
+    let field = &fields[charge];
+    let own = geometry.outline(field.position(), scene.ground.map(|g| g.height));
+    let aim = Aim {
+        scene,
+        field,
+        charge,
+        body: &scene.bodies[index],
+        geometry,
+        half_width: 0.5 * own.least_width(),
+        around: assembly.unwrap_or(&own),
+    };
+    let centre = field.at(geometry.body.position);
+    let mut shot = aim.load_panels();
+    let struck = shot.panels.iter().any(|load| !load.buried);
+    shot.wind = (struck && scene.loading.drag == Drag::FlowRelative).then(|| aim.wind(&centre));
+    shot.distance = centre.distance;
+    shot.arrival = shot.arrival.min(centre.arrival_time);
+    shot
 }
 
 /// One charge aimed at one body.
 struct Aim<'a> {
     scene: &'a Scene,
     field: &'a BlastField,
-    gain: f64,
+    charge: usize,
     body: &'a Body,
     geometry: &'a Geometry,
-    own: &'a Silhouette,
+    /// Half the smaller extent of the piece as the charge sees it [m].
+    half_width: f64,
     around: &'a Silhouette,
 }
 
 impl Aim<'_> {
-    /// Appends the load of every panel that has one; returns the frontal area and how far the curves were
-    /// stretched for it.
-    fn load_panels(&self, loads: &mut Vec<PanelLoad>, facts: &mut BodyFacts) -> (f64, Extension) {
+    /// The load of every panel that has one, and what can be told of them together.
+    fn load_panels(&self) -> Shot {
+        let mut shot = Shot {
+            charge: self.charge,
+            panels: Vec::new(),
+            wind: None,
+            frontal_area: 0.0,
+            distance: f64::INFINITY,
+            arrival: f64::INFINITY,
+            peaks: Peaks::default(),
+            extension: Extension::Inside,
+        };
         let state = &self.geometry.body;
-        let half_width = 0.5 * self.own.least_width();
         let lowest = self.scene.ground.map_or(f64::NEG_INFINITY, |g| g.height);
         let settings = HistorySettings {
             mode: self.scene.loading.mode,
             drag: self.scene.loading.drag,
             shape: self.scene.loading.pulse,
             negative_phase: self.scene.loading.negative_phase,
-            gain: self.gain,
+            gain: self.gain(),
         };
-        let mut frontal_area = 0.0;
-        let mut extension = Extension::Inside;
         let surface = settings.mode == LoadingMode::Surface;
         let open_only = |(_, buried): &&(Panel, bool)| surface || !buried;
         for &(panel, buried) in self.geometry.panels.iter().filter(open_only) {
@@ -310,12 +412,12 @@ impl Aim<'_> {
             let cos_alpha = -(state.world_from_principal * panel.normal).dot(point.direction);
             let faces = cos_alpha > 0.0 && !buried;
             if faces {
-                frontal_area += panel.area * cos_alpha;
+                shot.frontal_area += panel.area * cos_alpha;
             }
             if (centre.y < lowest && !buried) || !(faces || surface) {
                 continue;
             }
-            let clearing_length = self.scene.loading.clearing.length(centre, half_width, self.around);
+            let clearing_length = self.scene.loading.clearing.length(centre, self.half_width, self.around);
             let face = match (faces, buried) {
                 (true, _) => Face::Front { clearing_length },
                 (false, false) => Face::Rear { clearing_length },
@@ -325,25 +427,29 @@ impl Aim<'_> {
             let drag_coefficient = self.body.drag_coefficient;
             let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
             if point.extension != Extension::Inside {
-                extension = point.extension;
+                shot.extension = point.extension;
             }
-            facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
+            shot.peaks.overpressure = shot.peaks.overpressure.max(point.overpressure);
             if !buried {
-                facts.peak_load = facts.peak_load.max(history.peak());
+                shot.peaks.load = shot.peaks.load.max(history.peak());
             }
-            facts.arrival_time = facts.arrival_time.min(history.arrival());
+            shot.arrival = shot.arrival.min(history.arrival());
             let push = -panel.normal * panel.area;
             let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
-            loads.push(PanelLoad { history, push, twist, buried });
+            shot.panels.push(PanelLoad { charge: self.charge, history, push, twist, buried });
         }
-        (frontal_area, extension)
+        shot
+    }
+
+    fn gain(&self) -> f64 {
+        self.scene.charges[self.charge].gain
     }
 
     fn wind(&self, centre: &BlastPoint) -> Wind {
         let loading = &self.scene.loading;
         let mut pulse = centre.pulse(loading.pulse);
         pulse.negative = loading.negative_phase.then(|| self.field.negative_phase(centre.distance));
-        Wind::new(centre, pulse, &self.scene.air, self.gain)
+        Wind::new(centre, pulse, &self.scene.air, self.gain())
     }
 }
 
