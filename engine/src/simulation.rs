@@ -116,6 +116,7 @@ impl Simulation {
             .map(|(target, body)| Footing {
                 low: target.bounds.0,
                 high: target.bounds.1,
+                centre: target.body.position,
                 mass: body.mass,
                 anchored: body.anchored,
             })

@@ -4,7 +4,7 @@ mod wall;
 
 use brisance_engine::dynamics::ground::Ground;
 use brisance_engine::dynamics::standing::{Outcome, Place};
-use brisance_engine::dynamics::{Air, Carry, GRAVITY, RigidBody};
+use brisance_engine::dynamics::{Air, Carry, Footing, GRAVITY, RigidBody, Support};
 use brisance_engine::loading::Resistance;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
@@ -201,23 +201,48 @@ fn a_pushed_block_slides_its_closed_form_distance_for_any_step() {
     }
 }
 
+/// A cube of 1 m and 10 kg with its corner at `x`, `y`.
+fn cube(x: f64, y: f64) -> Footing {
+    let (low, high) = (DVec3::new(x, y, 0.0), DVec3::new(x + 1.0, y + 1.0, 1.0));
+    Footing { low, high, centre: (low + high) * 0.5, mass: 10.0, anchored: false }
+}
+
+fn leaving(mut support: Support, body: usize) -> Vec<usize> {
+    let mut left = vec![body];
+    support.leave(&mut left);
+    left
+}
+
 #[test]
 fn a_weight_above_is_carried_below() {
-    use brisance_engine::dynamics::{Footing, Support};
-    let brick = |x: f64, y: f64| Footing {
-        low: DVec3::new(x - 0.5, y, 0.0),
-        high: DVec3::new(x + 0.5, y + 1.0, 1.0),
-        mass: 10.0,
-        anchored: false,
-    };
     // One brick astride two: each carries half of it, and its own weight.
-    let mut support = Support::new(&[brick(-0.5, 0.0), brick(0.5, 0.0), brick(0.0, 1.0)], Some(0.0));
+    let mut support = Support::new(&[cube(-1.0, 0.0), cube(0.0, 0.0), cube(-0.5, 1.0)], Some(0.0));
     assert!((support.carry(0).normal_force - 15.0 * GRAVITY).abs() < 1e-9);
     assert!((support.carry(2).normal_force - 10.0 * GRAVITY).abs() < 1e-9);
     let mut left = vec![0];
     support.leave(&mut left);
-    assert_eq!(left, [0], "the other brick still carries");
+    assert_eq!(left, [0], "the other brick still carries, just");
+    assert!((support.carry(1).normal_force - 20.0 * GRAVITY).abs() < 1e-9, "all of it");
     let mut left = vec![1];
     support.leave(&mut left);
     assert_eq!(left, [1, 2], "nothing carries it any more");
+}
+
+#[test]
+fn a_brick_on_a_sliver_falls() {
+    // Nine tenths on the left one, one tenth on the right one.
+    let support = Support::new(&[cube(-1.0, 0.0), cube(0.0, 0.0), cube(-0.9, 1.0)], Some(0.0));
+    assert_eq!(leaving(support.clone(), 1), [1], "its centre is above what is left");
+    assert_eq!(leaving(support, 0), [0, 2], "its centre is above nothing");
+    // Between two slivers the centre is above none of them, but inside.
+    let bridge =
+        Support::new(&[cube(-0.9, 0.0), cube(0.9, 0.0), cube(0.0, 1.0), cube(-0.05, 0.0)], Some(0.0));
+    assert_eq!(leaving(bridge, 3), [3]);
+}
+
+#[test]
+fn what_overhangs_from_the_start_stays_until_something_leaves() {
+    let tower = [cube(0.0, 0.0), cube(0.6, 1.0), cube(1.0, 2.0)];
+    assert_eq!(leaving(Support::new(&tower, Some(0.0)), 2), [2]);
+    assert_eq!(leaving(Support::new(&tower, Some(0.0)), 0), [0, 1, 2]);
 }
