@@ -143,6 +143,8 @@ def _check_names(scene: Scene, built: Built) -> None:
 
 def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
     warnings = [warning for group in sets for warning in group.warnings]
+    if scene.ground is None and not all(obj.anchored for obj in scene.objects):
+        warnings.append("The scene has no [ground], so nothing stops what falls.")
     if scene.occlusion.enabled:
         warnings.append(
             "occlusion.enabled: this version computes no shelter, so every piece is loaded in full."

@@ -76,7 +76,14 @@ def done(capsys: Capture, *arguments: str | Path) -> tuple[str, str]:
         (["run", WALL, "--frames", "0"], "--frames"),
         (["run", WALL, "--threads", "0"], "--threads"),
         (["run", WALL, "-o", "."], ". is a directory"),
-        (["run", WALL, "-o", "wall.mp4"], "no suffix that names a format"),
+        (["run", WALL, "-o", "wall.mp4"], "ends in .usdc"),
+        (["run", WALL, "-o", "wall.abc"], "ends in .usdc"),
+        (["run", WALL, "-o", "wall.json"], "ends in .usdc"),
+        (["run", WALL, "--set", "charge.0.gain=1e6"], "gain must be 1000 or less"),
+        (["run", WALL, "--set", "brick_wall.0.brick_mass=1e-6"], "far less than the air in its place"),
+        (["run", WALL, "--set", "air.pressure=1e-300"], "air.pressure must be 100 or more"),
+        (["run", WALL, "--set", "air.temperature=1e5"], "air.temperature must be 1000 or less"),
+        (["curves", "--mass", "1", "--pressure", "1e-300"], "--pressure must be 100 or more"),
         (["run", WALL, "-o", "none/wall.usdc"], "the folder none does not exist"),
         (["run", WALL, "-o", "bad.toml/wall.usdc"], "is a file, not a folder"),
         (["run", WALL, "--report", "wall.txt"], "ends in .json"),
@@ -298,6 +305,22 @@ def test_inspect_tells_every_scene(capsys: Capture, name: str) -> None:
     out, err = done(capsys, "inspect", SCENES / name)
     assert "charge.0" in out
     assert err == ""
+
+
+@pytest.mark.parametrize("command", ["run", "inspect"])
+def test_a_scene_without_ground_is_warned_of_where_something_can_fall(
+    command: str, capsys: Capture, tmp_path: Path
+) -> None:
+    def told(ground: str, anchored: str) -> int:
+        charge = "[[charge]]\nmass = 1\nposition = [0, 0.5, -5]\n"
+        block = f"[[block]]\nsize = [1, 1, 1]\nmass = 10\nposition = [0, 0.5, 0]\nanchored = {anchored}\n"
+        scene = tmp_path / "scene.toml"
+        scene.write_text(f"[time]\nduration = 0.1\n{ground}{charge}{block}")
+        return done(capsys, command, scene)[0].count("warning: The scene has no [ground]")
+
+    assert told("", "false") == 1
+    assert told("", "true") == 0
+    assert told("[ground]\n", "false") == 0
 
 
 def test_curves_print_the_same_numbers_three_ways(capsys: Capture) -> None:

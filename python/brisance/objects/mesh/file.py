@@ -28,7 +28,8 @@ def read_mesh_file(path: Path, *, label: str) -> PolygonMesh:
     """
     if not path.exists():
         raise InputError(
-            f"{label} does not exist in {path.parent}; give a path that starts from the scene's folder"
+            f"{label} does not exist: {path.resolve()} is not there; give a path that starts "
+            "from the scene's folder"
         )
     if not path.is_file():
         raise InputError(f"{label} is a folder; give a mesh file ({', '.join(SUFFIXES)})")
