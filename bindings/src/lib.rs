@@ -6,6 +6,7 @@
 mod arrays;
 mod blast;
 mod recording;
+mod run;
 mod scene;
 
 use brisance_engine as engine;

@@ -105,10 +105,18 @@ impl Simulation {
     /// # Errors
     /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
     pub fn prepare(scene: &Scene) -> Result<Self> {
+        Self::prepare_observed(scene, &mut || ControlFlow::Continue(()))
+    }
+
+    /// As [`prepare`](Self::prepare); `observer` is asked now and then and may stop the work.
+    ///
+    /// # Errors
+    /// Also [`Error::Cancelled`] when the observer breaks off.
+    pub fn prepare_observed(scene: &Scene, observer: &mut dyn FnMut() -> ControlFlow<()>) -> Result<Self> {
         scene.validate()?;
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
-        let targets = targets::aim(scene, &fields)?;
+        let targets = targets::aim(scene, &fields, observer)?;
         let steps_per_frame = targets::steps_per_frame(scene, &targets);
         let footings: Vec<Footing> = targets
             .iter()

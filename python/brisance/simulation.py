@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from brisance import _engine
 from brisance.curve_table import curve_source
 from brisance.errors import InputError
+from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits
 from brisance.model import Scene, object_keys
 from brisance.objects import pieces
@@ -199,6 +201,7 @@ class _Progress:
         self._started = time.perf_counter()
         self._bar: Any = None
         self._task: Any = None
+        self._stack = ExitStack()
 
     def __enter__(self) -> Self:
         return self
@@ -206,8 +209,7 @@ class _Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._bar is not None:
-            self._bar.stop()
+        self._stack.close()
 
     def update(self, done: int, total: int) -> None:
         """Show that ``done`` of ``total`` parts are done."""
@@ -220,5 +222,7 @@ class _Progress:
             console = Console(stderr=True)
             self._bar = Progress(console=console, transient=True, disable=not console.is_terminal)
             self._task = self._bar.add_task("simulating", total=total)
-            self._bar.start()
+            if console.is_terminal:
+                self._stack.enter_context(if_stopped(restore_terminal))
+            self._stack.enter_context(self._bar)
         self._bar.update(self._task, completed=done, total=total)

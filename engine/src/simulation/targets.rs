@@ -1,13 +1,14 @@
 //! From a scene to targets: for each body, which loads come, when, and on which panels.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 use crate::blast::{BlastField, BlastPoint, Extension};
 use crate::dynamics::RigidBody;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::{PrincipalAxes, Silhouette};
 use crate::loading::{
     Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
@@ -153,20 +154,35 @@ struct Geometry {
     world_corners: Vec<DVec3>,
 }
 
+/// Bodies made ready between two looks at the observer.
+const BATCH: usize = 2048;
+
 /// Makes every body of a scene ready. The order is that of the scene.
-pub(super) fn aim(scene: &Scene, fields: &[BlastField]) -> Result<Vec<Target>> {
-    let geometries: Vec<Geometry> = scene.bodies.par_iter().map(Geometry::of).collect::<Result<_>>()?;
+pub(super) fn aim(
+    scene: &Scene,
+    fields: &[BlastField],
+    observer: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Vec<Target>> {
+    let mut listen = || if observer().is_break() { Err(Error::Cancelled) } else { Ok(()) };
+    let mut geometries = Vec::with_capacity(scene.bodies.len());
+    for bodies in scene.bodies.chunks(BATCH) {
+        geometries.extend(bodies.par_iter().map(Geometry::of).collect::<Result<Vec<_>>>()?);
+        listen()?;
+    }
     let outlines = assembly_outlines(scene, fields, &geometries);
-    Ok(scene
-        .bodies
-        .par_iter()
-        .zip(geometries)
-        .enumerate()
-        .map(|(index, (body, geometry))| {
-            let assembly = body.assembly.map(|id| &outlines[&id][..]);
+    let mut targets = Vec::with_capacity(geometries.len());
+    let mut rest = geometries.into_iter();
+    while targets.len() < scene.bodies.len() {
+        let first = targets.len();
+        let batch: Vec<Geometry> = rest.by_ref().take(BATCH).collect();
+        targets.par_extend(batch.into_par_iter().enumerate().map(|(offset, geometry)| {
+            let index = first + offset;
+            let assembly = scene.bodies[index].assembly.map(|id| &outlines[&id][..]);
             target(scene, fields, index, geometry, assembly)
-        })
-        .collect())
+        }));
+        listen()?;
+    }
+    Ok(targets)
 }
 
 impl Geometry {
