@@ -11,6 +11,7 @@ mod hydrocode;
 mod material;
 mod occlusion;
 mod recording;
+mod run;
 mod scene;
 mod structure;
 

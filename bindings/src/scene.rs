@@ -1,8 +1,6 @@
 //! Building and running a scene from Python.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use engine::air::Air;
 use engine::charge::Charge;
@@ -11,7 +9,7 @@ use engine::geometry::{MassProperties, TriangleMesh};
 use engine::loading::Clearing;
 use engine::occlusion::{Attenuation, Per, Settings as Occlusion, Shelter};
 use engine::scene::{Body, Dynamics, Loading, Scene as EngineScene, Shape, Time};
-use engine::simulation::{Shelters, Simulation, seen_from};
+use engine::simulation::{Shelters, seen_from};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -19,17 +17,11 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{floats, quaternion, quaternions, rows_of_three, same_length, vectors};
 use crate::blast::{Source, burst, drag, loading_mode, pulse_shape};
-use crate::recording::{Recording, Timing};
-use crate::{InputError, engine, refused};
+use crate::recording::Recording;
+use crate::{InputError, engine, refused, run};
 
 /// Number of the nearest body, and its distance.
 type SeenFrom<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
-
-/// How often a run listens for Ctrl-C and reports how far it is.
-const HEARTBEAT: Duration = Duration::from_millis(50);
-
-/// Threads beyond this only cost time to start; the result is the same for any number.
-const MOST_THREADS: usize = 256;
 
 /// A length, or the name of a way to find it.
 #[derive(FromPyObject)]
@@ -292,52 +284,7 @@ impl Scene {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Recording> {
-        let scene = &self.scene;
-        py.detach(|| {
-            let work = || run(scene, progress.as_ref());
-            match threads {
-                None => work(),
-                Some(count) => rayon::ThreadPoolBuilder::new()
-                    .num_threads(count.min(MOST_THREADS))
-                    .build()
-                    .map_err(|e| InputError::new_err(format!("{count} threads could not be started: {e}")))?
-                    .install(work),
-            }
-        })
-    }
-}
-
-/// Runs a scene without the GIL, taking it back now and then to listen for Ctrl-C and report progress.
-fn run(scene: &EngineScene, progress: Option<&Py<PyAny>>) -> PyResult<Recording> {
-    let start = Instant::now();
-    let shelters = Shelters::find(scene).map_err(refused)?;
-    let occlusion = start.elapsed();
-    let simulation = Simulation::prepare_sheltered(scene, &shelters).map_err(refused)?;
-    let load = start.elapsed() - occlusion;
-    let mut last_beat = Instant::now();
-    let mut interruption = None;
-    let mut observer = |done: usize, total: usize| {
-        if last_beat.elapsed() < HEARTBEAT && done < total {
-            return ControlFlow::Continue(());
-        }
-        last_beat = Instant::now();
-        let heard = Python::attach(|py| {
-            py.check_signals()?;
-            progress.map_or(Ok(()), |callback| callback.call1(py, (done, total)).map(drop))
-        });
-        match heard {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                interruption = Some(error);
-                ControlFlow::Break(())
-            }
-        }
-    };
-    let recorded = simulation.run(&mut observer);
-    let dynamics = start.elapsed() - occlusion - load;
-    match interruption {
-        Some(error) => Err(error),
-        None => Ok(Recording::new(recorded.map_err(refused)?, Timing { occlusion, load, dynamics })),
+        py.detach(|| run::watched(&self.scene, threads, progress.as_ref()))
     }
 }
 

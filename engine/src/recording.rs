@@ -39,7 +39,8 @@ pub struct BodyFacts {
     pub impulse: DVec3,
     /// Share of the unsheltered load that it receives.
     pub attenuation: f64,
-    /// Speed at the end of its loading [m/s]; at the end of the run if that comes first.
+    /// Speed at the end of its loading [m/s]; at the end of the run if that comes first; the highest of them where
+    /// charges load it one after the other.
     pub launch_speed: f64,
     /// When it came to rest for good [s]; 0 if it never moved, not a number if it still moves.
     pub rest_time: f64,

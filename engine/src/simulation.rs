@@ -1,34 +1,39 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
+mod later;
 mod shelter;
 mod targets;
 
 use std::ops::ControlFlow;
 
+use fearless_simd::Level;
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 use crate::blast::{BlastField, Extension};
 use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
 use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Carry, Footing, GRAVITY, RigidBody, Support, Winds};
+use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, LANES, RigidBody, Support, Winds};
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
+use later::Later;
 pub use shelter::{Shelters, seen_from};
-use targets::{LoadQueue, Target};
+use targets::{LoadQueue, Peaks, Shot, Target};
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
-/// Bodies a thread takes at once.
-const CHUNK: usize = 256;
+/// Blocks of bodies a thread takes at once.
+const CHUNK: usize = 32;
 
 /// A scene made ready to run.
 pub struct Simulation {
-    bodies: Vec<RigidBody>,
+    bodies: Bodies,
     phases: Vec<Phase>,
     lives: Vec<Life>,
     support: Support,
+    /// Fronts that come after bodies have left their places.
+    later: Option<Later>,
     world: World,
     frames: usize,
     frame_rate: f64,
@@ -68,6 +73,8 @@ enum Phase {
 struct World {
     ground: Option<Ground>,
     air: Air,
+    /// Instructions the processor has.
+    level: Level,
 }
 
 /// What is needed of a body beside its state, and less often.
@@ -85,6 +92,10 @@ struct Life {
     /// Impulse of friction in the last step [N s].
     rubbed: DVec3,
     launched: bool,
+    /// Whether it has ever left its place.
+    away: bool,
+    /// Per charge, what it alone does at most.
+    peaks: Vec<Peaks>,
     /// What the last step asks to be settled between the bodies.
     change: Option<Phase>,
     facts: BodyFacts,
@@ -96,18 +107,23 @@ impl Simulation {
     /// # Errors
     /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
     pub fn prepare(scene: &Scene) -> Result<Self> {
-        Self::prepare_sheltered(scene, &Shelters::find(scene)?)
+        Self::prepare_sheltered(scene, Shelters::find(scene)?, &mut || ControlFlow::Continue(()))
     }
 
-    /// Works out all loads of a scene whose shelters are already found.
+    /// Works out all loads of a scene whose shelters are already found; `observer` is asked now and then and may stop
+    /// the work.
     ///
     /// # Errors
-    /// As [`prepare`](Self::prepare).
-    pub fn prepare_sheltered(scene: &Scene, shelters: &Shelters) -> Result<Self> {
+    /// As [`prepare`](Self::prepare), and [`Error::Cancelled`] when the observer breaks off.
+    pub fn prepare_sheltered(
+        scene: &Scene,
+        shelters: Shelters,
+        observer: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Self> {
         scene.validate()?;
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
-        let targets = targets::aim(scene, &fields, shelters)?;
+        let targets = targets::aim(scene, &fields, &shelters, observer)?;
         let steps_per_frame = targets::steps_per_frame(scene, &targets);
         let footings: Vec<Footing> = targets
             .iter()
@@ -115,6 +131,7 @@ impl Simulation {
             .map(|(target, body)| Footing {
                 low: target.bounds.0,
                 high: target.bounds.1,
+                centre: target.body.position,
                 mass: body.mass,
                 anchored: body.anchored,
             })
@@ -152,13 +169,15 @@ impl Simulation {
             })
             .collect();
         Ok(Self {
-            bodies,
+            bodies: Bodies::new(&bodies),
             phases,
             lives,
             support,
+            later: Later::new(scene, fields, shelters),
             world: World {
                 ground: scene.ground,
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
+                level: Level::new(),
             },
             frames: scene.time.frames(),
             frame_rate: scene.time.frame_rate,
@@ -196,34 +215,37 @@ impl Simulation {
             }
             self.record(frame, &mut recording);
         }
-        recording.facts = self.bodies.iter().zip(self.lives).map(|(body, life)| life.finish(body)).collect();
+        let bodies = (0..self.bodies.len()).map(|index| self.bodies.get(index));
+        recording.facts = bodies.zip(self.lives).map(|(body, life)| life.finish(&body)).collect();
         recording.warnings = self.warnings;
         Ok(recording)
     }
 
     /// One step of every body, then what they change for each other.
     fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
+        self.meet_fronts(t1);
         let (world, support) = (&self.world, &self.support);
-        let one = |(index, ((body, phase), life)): (usize, ((&mut RigidBody, &mut Phase), &mut Life))| {
-            world.step(body, phase, life, support.carry(index), t0, t1)
+        let (blocks, shared) = (self.bodies.blocks_mut(), self.phases.len() >= WORTH_SHARING);
+        let one = |(index, ((block, phases), lives))| {
+            world.step_block(block, phases, lives, |lane| support.carry(index * LANES + lane), t0, t1)
         };
-        let concern = if self.bodies.len() < WORTH_SHARING {
-            self.bodies
-                .iter_mut()
-                .zip(&mut self.phases)
-                .zip(&mut self.lives)
-                .enumerate()
-                .map(one)
-                .fold(Concern::Nothing, Concern::max)
-        } else {
-            self.bodies
+        let concern = if shared {
+            blocks
                 .par_iter_mut()
-                .zip(&mut self.phases)
-                .zip(&mut self.lives)
+                .zip(self.phases.par_chunks_mut(LANES))
+                .zip(self.lives.par_chunks_mut(LANES))
                 .enumerate()
                 .with_min_len(CHUNK)
                 .map(one)
                 .reduce(|| Concern::Nothing, Concern::max)
+        } else {
+            blocks
+                .iter_mut()
+                .zip(self.phases.chunks_mut(LANES))
+                .zip(self.lives.chunks_mut(LANES))
+                .enumerate()
+                .map(one)
+                .fold(Concern::Nothing, Concern::max)
         };
         if concern == Concern::Settles {
             self.settle(t1, left);
@@ -231,9 +253,20 @@ impl Simulation {
         let slides = concern >= Concern::Slides;
         if slides || self.slid {
             let (bodies, lives) = (&self.bodies, &self.lives);
-            self.support.pass_on(|i| bodies[i].velocity, |i| lives[i].rubbed);
+            self.support.pass_on(|i| bodies.get(i).velocity, |i| lives[i].rubbed);
         }
         self.slid = slides;
+    }
+
+    /// Aims the charges whose fronts come by `t1` at the bodies that have left their places.
+    fn meet_fronts(&mut self, t1: f64) {
+        let Some(later) = &mut self.later else { return };
+        for (index, charge, shot) in later.reached(t1, |index| self.bodies.get(index)) {
+            self.lives[index].strike(charge, shot);
+            if self.phases[index] == Phase::Flying {
+                self.phases[index] = Phase::Free;
+            }
+        }
     }
 
     /// Bodies that left let down what they carried; bodies that came to rest carry themselves again.
@@ -243,10 +276,11 @@ impl Simulation {
             match life.change.take() {
                 Some(Phase::Free) => left.push(index),
                 Some(Phase::Standing) => {
-                    let body = &mut self.bodies[index];
+                    let mut body = self.bodies.get(index);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
-                    life.place = Place::new(body, life.extent, life.ground_friction);
+                    self.bodies.set(index, &body);
+                    life.place = Place::new(&body, life.extent, life.ground_friction);
                     life.facts.rest_time = now - CALM_TIME;
                     self.support.stand_up(index);
                     self.phases[index] = Phase::Standing;
@@ -263,13 +297,18 @@ impl Simulation {
             let life = &mut self.lives[index];
             life.facts.rest_time = f64::NAN;
             life.calm = 0.0;
+            if let Some(later) = self.later.as_mut().filter(|_| !life.away) {
+                later.put_off(index, &self.bodies.get(index), &mut life.queue, now);
+            }
+            life.away = true;
         }
     }
 
     fn record(&self, frame: usize, recording: &mut Recording) {
         recording.times.push(frame as f64 / self.frame_rate);
         let count = self.bodies.len();
-        for (index, (body, life)) in self.bodies.iter().zip(&self.lives).enumerate() {
+        for (index, life) in self.lives.iter().enumerate() {
+            let body = self.bodies.get(index);
             recording.positions.push(body.position.as_vec3());
             let rotation =
                 (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
@@ -281,7 +320,39 @@ impl Simulation {
 }
 
 impl World {
-    /// One step of one body. Returns what of it concerns others.
+    /// One step of the bodies in a block: those in flight together, the others one by one. Returns the gravest of
+    /// what concerns others.
+    fn step_block<'a>(
+        &self,
+        block: &mut Block,
+        phases: &mut [Phase],
+        lives: &mut [Life],
+        carry: impl Fn(usize) -> &'a Carry,
+        t0: f64,
+        t1: f64,
+    ) -> Concern {
+        let flying = std::array::from_fn(|lane| phases.get(lane) == Some(&Phase::Flying));
+        if flying.contains(&true) {
+            block.fly(self.level, flying, self.air, t1 - t0);
+        }
+        if !flying.contains(&false) && self.ground.is_none_or(|ground| !ground.is_near(block.lowest())) {
+            return Concern::Nothing;
+        }
+        let mut gravest = Concern::Nothing;
+        for (lane, (phase, life)) in phases.iter_mut().zip(lives).enumerate() {
+            let carry = carry(lane);
+            if *phase == Phase::Standing && !life.queue.acts(t0, t1) && !carry.is_moved() {
+                life.rubbed = DVec3::ZERO;
+                continue;
+            }
+            let mut body = block.get(lane);
+            gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
+            block.set(lane, &body);
+        }
+        gravest
+    }
+
+    /// One step of one body; what flies has already flown. Returns what of it concerns others.
     fn step(
         &self,
         body: &mut RigidBody,
@@ -292,19 +363,12 @@ impl World {
         t1: f64,
     ) -> Concern {
         let concern = match phase {
-            Phase::Flying => {
-                body.fly(self.air, t1 - t0);
-                return self.land(body, life, t1 - t0);
-            }
+            Phase::Flying => return self.land(body, life, t1 - t0),
             Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Standing if !life.queue.acts(t0, t1) && !carry.is_moved() => {
-                life.rubbed = DVec3::ZERO;
-                return Concern::Nothing;
-            }
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
-                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
                 }
@@ -313,7 +377,7 @@ impl World {
         };
         if !life.launched && life.queue.end <= t1 {
             life.launched = true;
-            life.facts.launch_speed = body.velocity.length();
+            life.facts.launch_speed = life.facts.launch_speed.max(body.velocity.length());
         }
         if *phase == Phase::Free && life.launched {
             *phase = Phase::Flying;
@@ -322,8 +386,8 @@ impl World {
     }
 
     /// Puts panel loads and wind on a body's velocity and angular momentum; returns the impulse [N s].
-    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64) -> DVec3 {
-        let (impulse, angular) = queue.take(t0, t1);
+    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64, free: bool) -> DVec3 {
+        let (impulse, angular) = queue.take(t0, t1, free);
         body.push(impulse, angular);
         let winds = Winds { winds: &queue.winds, air: self.air };
         body.world_from_principal * impulse + body.blow(winds, t0, t1)
@@ -339,7 +403,7 @@ impl World {
         t1: f64,
     ) -> Concern {
         let before = body.velocity;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
         let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
         life.rubbed = rubbed;
         match outcome {
@@ -367,7 +431,7 @@ impl World {
         let before = body.velocity;
         let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
         body.velocity += half_fall;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1);
+        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, true);
         body.velocity += half_fall;
         body.position += (before + body.velocity) * (0.5 * dt);
         body.turn(dt);
@@ -377,7 +441,9 @@ impl World {
     /// Lets a body that has just moved meet the ground, and notices when it has come to rest.
     #[inline]
     fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> Concern {
-        let Some(ground) = self.ground.filter(|ground| ground.is_near(body)) else { return Concern::Nothing };
+        let Some(ground) = self.ground.filter(|ground| ground.is_near(body.position.y - body.reach)) else {
+            return Concern::Nothing;
+        };
         let calm = ground.meet(body, &life.corners, life.ground_friction);
         life.calm = if calm { life.calm + dt } else { 0.0 };
         if life.calm < CALM_TIME {
@@ -396,6 +462,8 @@ impl Life {
         Self {
             place: Place::new(&target.body, extent, in_place),
             launched: target.queue.end <= 0.0,
+            away: false,
+            peaks: target.peaks,
             queue: target.queue,
             corners: target.corners,
             object_from_principal: target.object_from_principal,
@@ -408,9 +476,18 @@ impl Life {
         }
     }
 
+    /// Takes a charge's loads anew.
+    fn strike(&mut self, charge: usize, shot: Shot) {
+        self.peaks[charge] = shot.peaks;
+        self.facts.peak_overpressure = self.peaks.iter().map(|p| p.overpressure).fold(0.0, f64::max);
+        self.facts.peak_load = self.peaks.iter().map(|p| p.load).fold(0.0, f64::max);
+        self.queue.replace(shot);
+        self.launched = false;
+    }
+
     fn finish(mut self, body: &RigidBody) -> BodyFacts {
         if !self.launched {
-            self.facts.launch_speed = body.velocity.length();
+            self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
         }
         self.facts
     }

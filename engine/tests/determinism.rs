@@ -17,7 +17,9 @@ fn yard() -> brisance_engine::scene::Scene {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    for scene in [wall::wall(), yard()] {
+    let mut twice = yard();
+    twice.charges.push(Charge { time: 0.2, ..Charge::tnt(100.0, DVec3::new(5.0, 10.0, 20.0)) });
+    for scene in [wall::wall(), yard(), twice] {
         let runs: Vec<_> = [1, 2, 7]
             .into_iter()
             .map(|threads| {

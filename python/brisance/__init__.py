@@ -10,11 +10,10 @@ Names are imported when first used, so that ``import brisance`` costs next to no
 
 from __future__ import annotations
 
-import importlib
-from importlib.metadata import PackageNotFoundError, version
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from brisance.errors import BrisanceError, InputError
     from brisance.model import (
         Air,
@@ -84,7 +83,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    import importlib
+
     if name == "__version__":
+        from importlib.metadata import PackageNotFoundError, version
+
         try:
             value: Any = version("brisance")
         except PackageNotFoundError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from brisance import _engine
 from brisance.curve_table import curve_source
 from brisance.errors import InputError
+from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits
 from brisance.model import Scene, object_keys
 from brisance.objects import pieces
@@ -144,6 +146,8 @@ def _check_names(scene: Scene, built: Built) -> None:
 
 def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
     warnings = [warning for group in sets for warning in group.warnings]
+    if scene.ground is None and not all(obj.anchored for obj in scene.objects):
+        warnings.append("The scene has no [ground], so nothing stops what falls.")
     if scene.dynamics.contacts:
         warnings.append(
             "dynamics.contacts: in this version pieces meet only the ground and pass through each other."
@@ -194,6 +198,7 @@ class _Progress:
         self._started = time.perf_counter()
         self._bar: Any = None
         self._task: Any = None
+        self._stack = ExitStack()
 
     def __enter__(self) -> Self:
         return self
@@ -201,8 +206,7 @@ class _Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._bar is not None:
-            self._bar.stop()
+        self._stack.close()
 
     def update(self, done: int, total: int) -> None:
         """Show that ``done`` of ``total`` parts are done."""
@@ -215,5 +219,7 @@ class _Progress:
             console = Console(stderr=True)
             self._bar = Progress(console=console, transient=True, disable=not console.is_terminal)
             self._task = self._bar.add_task("simulating", total=total)
-            self._bar.start()
+            if console.is_terminal:
+                self._stack.enter_context(if_stopped(restore_terminal))
+            self._stack.enter_context(self._bar)
         self._bar.update(self._task, completed=done, total=total)

@@ -76,7 +76,14 @@ def done(capsys: Capture, *arguments: str | Path) -> tuple[str, str]:
         (["run", WALL, "--frames", "0"], "--frames"),
         (["run", WALL, "--threads", "0"], "--threads"),
         (["run", WALL, "-o", "."], ". is a directory"),
-        (["run", WALL, "-o", "wall.mp4"], "no suffix that names a format"),
+        (["run", WALL, "-o", "wall.mp4"], "ends in .usdc"),
+        (["run", WALL, "-o", "wall.abc"], "ends in .usdc"),
+        (["run", WALL, "-o", "wall.json"], "ends in .usdc"),
+        (["run", WALL, "--set", "charge.0.gain=1e6"], "gain must be 1000 or less"),
+        (["run", WALL, "--set", "brick_wall.0.brick_mass=1e-6"], "far less than the air in its place"),
+        (["run", WALL, "--set", "air.pressure=1e-300"], "air.pressure must be 100 or more"),
+        (["run", WALL, "--set", "air.temperature=1e5"], "air.temperature must be 1000 or less"),
+        (["curves", "--mass", "1", "--pressure", "1e-300"], "--pressure must be 100 or more"),
         (["run", WALL, "-o", "none/wall.usdc"], "the folder none does not exist"),
         (["run", WALL, "-o", "bad.toml/wall.usdc"], "is a file, not a folder"),
         (["run", WALL, "--report", "wall.txt"], "ends in .json"),
@@ -163,15 +170,8 @@ def test_a_write_cut_short_leaves_the_old_file(
     assert list(tmp_path.iterdir()) == [output]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows sends no interrupt to one process")
-def test_ctrl_c_ends_a_long_run(tmp_path: Path) -> None:
-    output = tmp_path / "wall.usdc"
-    output.write_text("precious")
-    arguments = ["run", WALL, "-o", str(output), "--set", "time.duration=100", "--set", "time.step=1e-7"]
-    program = (
-        "import sys; from brisance.cli.main import main; "
-        "print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
-    )
+def interrupted(program: str, *arguments: str, after: float = 0.0) -> tuple[int, str, str]:
+    """Run Python code and press Ctrl-C some seconds after it has said "ready"; exit code, stdout, stderr."""
     with subprocess.Popen(
         [sys.executable, "-c", program, *arguments],
         stdout=subprocess.PIPE,
@@ -181,16 +181,65 @@ def test_ctrl_c_ends_a_long_run(tmp_path: Path) -> None:
         try:
             assert process.stdout is not None
             assert process.stdout.readline() == "ready\n"
-            time.sleep(1.0)  # so that it is in the engine; sooner is heard as well
+            time.sleep(after)
             process.send_signal(signal.SIGINT)
+            started = time.monotonic()
             out, err = process.communicate(timeout=30)
+            assert time.monotonic() - started < 5.0, "within a second, were the machine not busy"
         finally:
             process.kill()
-    assert process.returncode == 130
-    assert err == "brisance: stopped.\n"
-    assert out == ""
+    return process.returncode, out, err
+
+
+COMMAND = "import sys, brisance.__main__ as entry; print('ready', flush=True); sys.exit(entry.main())"
+posix_only = pytest.mark.skipif(os.name == "nt", reason="Windows sends no interrupt to one process")
+
+
+@posix_only
+@pytest.mark.parametrize("after", [0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.6, 1.0])
+def test_ctrl_c_ends_a_long_run_at_any_moment(tmp_path: Path, after: float) -> None:
+    output = tmp_path / "props.usdc"
+    output.write_text("precious")
+    scene = str(SCENES / "mesh_props.toml")
+    long = ("--set", "time.duration=100", "--set", "time.step=1e-7")
+    ended = interrupted(COMMAND, "run", scene, "-o", str(output), *long, after=after)
+    assert ended == (130, "", "brisance: stopped.\n")
     assert output.read_text() == "precious"
     assert list(tmp_path.iterdir()) == [output]
+
+
+@posix_only
+def test_ctrl_c_while_writing_leaves_the_old_file(tmp_path: Path) -> None:
+    output = tmp_path / "wall.usdc"
+    output.write_text("precious")
+    program = (
+        "import brisance.__main__, sys, time\n"
+        "from brisance.formats.atomic import replacing\n"
+        "with replacing(sys.argv[1]) as temporary:\n"
+        "    temporary.write_text('half')\n"
+        "    print('ready', flush=True)\n"
+        "    time.sleep(60)\n"
+    )
+    assert interrupted(program, str(output)) == (130, "", "brisance: stopped.\n")
+    assert output.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [output]
+
+
+@posix_only
+def test_ctrl_c_stays_an_exception_for_users_of_the_library() -> None:
+    program = (
+        "import brisance, sys\n"
+        "scene, threads = brisance.load(sys.argv[2], sys.argv[3:]), int(sys.argv[1]) or None\n"
+        "print('ready', flush=True)\n"
+        "try:\n"
+        "    brisance.simulate(scene, threads=threads)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('heard')\n"
+    )
+    endless = ("time.duration=100", "time.step=1e-7")
+    many = ("brick_wall.0.rows=300", "brick_wall.0.columns=300")
+    for threads, changes in (("0", endless), ("1", endless), ("0", many)):
+        assert interrupted(program, threads, WALL, *changes, after=0.7) == (0, "heard\n", "")
 
 
 def test_run_tells_what_happened_and_writes(capsys: Capture, tmp_path: Path) -> None:
@@ -298,6 +347,22 @@ def test_inspect_tells_every_scene(capsys: Capture, name: str) -> None:
     out, err = done(capsys, "inspect", SCENES / name)
     assert "charge.0" in out
     assert err == ""
+
+
+@pytest.mark.parametrize("command", ["run", "inspect"])
+def test_a_scene_without_ground_is_warned_of_where_something_can_fall(
+    command: str, capsys: Capture, tmp_path: Path
+) -> None:
+    def told(ground: str, anchored: str) -> int:
+        charge = "[[charge]]\nmass = 1\nposition = [0, 0.5, -5]\n"
+        block = f"[[block]]\nsize = [1, 1, 1]\nmass = 10\nposition = [0, 0.5, 0]\nanchored = {anchored}\n"
+        scene = tmp_path / "scene.toml"
+        scene.write_text(f"[time]\nduration = 0.1\n{ground}{charge}{block}")
+        return done(capsys, command, scene)[0].count("warning: The scene has no [ground]")
+
+    assert told("", "false") == 1
+    assert told("", "true") == 0
+    assert told("[ground]\n", "false") == 0
 
 
 def test_curves_print_the_same_numbers_three_ways(capsys: Capture) -> None:

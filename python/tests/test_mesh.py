@@ -347,9 +347,24 @@ def test_unusable_file_is_one_sentence(tmp_path: Path, name: str, content: bytes
 
 
 def test_missing_file_and_folder_are_one_sentence(tmp_path: Path) -> None:
-    assert "does not exist" in refusal(tmp_path / "nowhere.obj")
+    missing = tmp_path / "nowhere.obj"
+    assert f"does not exist: {missing} is not there" in refusal(missing)
     (tmp_path / "folder.obj").mkdir()
     assert "is a folder" in refusal(tmp_path / "folder.obj")
+
+
+def test_a_mesh_of_no_numbers_is_told_apart_from_an_empty_one(tmp_path: Path) -> None:
+    (tmp_path / "nan.obj").write_text("v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\n")
+    assert "3 of its 3 have a corner that is not a finite number" in refusal(tmp_path / "nan.obj")
+    (tmp_path / "line.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 2\n")
+    assert "is empty" in refusal(tmp_path / "line.obj")
+
+
+def test_a_mesh_of_next_to_no_mass_is_refused(tmp_path: Path) -> None:
+    path = write_obj(tmp_path / "box.obj", shifted(0.0), CUBE_QUADS)
+    with pytest.raises(InputError, match=r'mesh "\w+" has a mass of 0\.05 kg, far less than the air'):
+        body_of(path, mass=0.05)
+    assert body_of(path, mass=0.2).mass == 0.2
 
 
 @pytest.mark.parametrize("suffix", ["stl", "ply", "glb", "off"])

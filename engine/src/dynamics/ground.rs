@@ -39,10 +39,10 @@ pub fn joint_friction(a: f64, b: f64) -> f64 {
 }
 
 impl Ground {
-    /// Whether a body can touch the ground at all.
+    /// Whether something that reaches down to `lowest` [m] can touch the ground at all.
     #[inline]
-    pub fn is_near(&self, body: &RigidBody) -> bool {
-        body.position.y - body.reach < self.height + TOUCH
+    pub fn is_near(&self, lowest: f64) -> bool {
+        lowest < self.height + TOUCH
     }
 
     /// Resolves the contact of a body that has just moved; `corners` are its outermost points in principal axes

@@ -1,6 +1,7 @@
 //! Rigid bodies: how they turn, fly, stand, slide and meet the ground.
 //!
 //! - [`RigidBody`]: state and the free step, Newton–Euler (thesis 2.40–2.44, 3.3, 3.4);
+//! - [`Bodies`]: all bodies of a run, laid out so that several fly at once;
 //! - [`Support`]: what stands on what, and with which weight (thesis 3.6);
 //! - [`standing`]: friction that must be exceeded;
 //! - [`ground`]: a plane that bodies fall on.
@@ -9,11 +10,13 @@
 //! steps.
 //! This is what makes the result the same for any number of threads.
 
+mod bodies;
 mod body;
 pub mod ground;
 pub mod standing;
 mod support;
 
+pub use bodies::{Block, Bodies, LANES};
 pub use body::{Air, RigidBody, Winds};
 pub use support::{Carry, Footing, Support};
 

@@ -78,7 +78,9 @@ impl Place {
 
     fn advance(&self, body: &mut RigidBody, before: DVec3, dt: f64, outcome: Outcome) -> Outcome {
         body.position += (before + body.velocity) * (0.5 * dt);
-        body.turn(dt);
+        if body.angular_momentum != DVec3::ZERO {
+            body.turn(dt);
+        }
         let up = body.world_from_principal * (self.world_from_principal.conjugate() * DVec3::Y);
         let gone = body.position.distance_squared(self.origin) > self.margin * self.margin || up.y < TILT;
         if gone { Outcome::Leaves } else { outcome }

@@ -3,11 +3,13 @@
 use glam::DVec3;
 
 use super::GRAVITY;
+use crate::geometry::Outline;
 
 /// Two faces closer than this stand on each other [m]: a bed of mortar, or the sloppiness of a hand-made scene.
 const JOINT: f64 = 0.02;
 
-/// A body that another one carries is on the ground as well only when it is this near [m].
+/// A body that another one carries is on the ground as well only when it is this near [m]; and so far may its centre
+/// of mass lie beyond the edge of what carries it.
 const CONTACT: f64 = 1e-3;
 
 /// Where a body stands at the start of a run.
@@ -17,6 +19,8 @@ pub struct Footing {
     pub low: DVec3,
     /// Upper corner of the body's bounding box in the world [m].
     pub high: DVec3,
+    /// Centre of mass in the world [m].
+    pub centre: DVec3,
     /// Mass [kg].
     pub mass: f64,
     /// Whether the body never moves.
@@ -44,8 +48,8 @@ impl Carry {
 /// The stack: who carries whom. A body that stands on nothing is held where it is until a blast frees it.
 #[derive(Debug, Clone)]
 pub struct Support {
+    footings: Vec<Footing>,
     standing: Vec<bool>,
-    anchored: Vec<bool>,
     grounded: Vec<bool>,
     /// Bodies that carry this one, with the share of its weight that each takes.
     carriers: Vec<Vec<(usize, f64)>>,
@@ -75,8 +79,8 @@ impl Support {
         let mut downward: Vec<usize> = (0..count).collect();
         downward.sort_by(|&a, &b| footings[b].low.y.total_cmp(&footings[a].low.y).then(a.cmp(&b)));
         let mut support = Self {
+            footings: footings.to_vec(),
             standing: vec![true; count],
-            anchored: footings.iter().map(|f| f.anchored).collect(),
             grounded,
             carriers,
             weight: footings.iter().map(|f| f.mass * GRAVITY).collect(),
@@ -108,7 +112,7 @@ impl Support {
             // A body with a foot on the ground is not carried along by what else stands under it.
             if !self.grounded[body] {
                 for &(carrier, share) in &self.carriers[body] {
-                    if self.standing[carrier] && !self.anchored[carrier] {
+                    if self.standing[carrier] && !self.footings[carrier].anchored {
                         carried += velocity(carrier) * share;
                         self.carry[carrier].reaction -= friction * share;
                     }
@@ -133,30 +137,49 @@ impl Support {
         self.carriers[body].is_empty() && !self.grounded[body]
     }
 
-    /// Takes out bodies that have left their place. Those that lose their last carrier leave with them and are
-    /// appended to `left`; weights are settled anew.
+    /// Takes out bodies that have left their place. Those that lose their last carrier, or the one that was under
+    /// their centre of mass, leave with them and are appended to `left`; weights are settled anew.
     pub fn leave(&mut self, left: &mut Vec<usize>) {
         for &body in left.iter() {
             self.standing[body] = false;
         }
         for i in (0..self.downward.len()).rev() {
             let body = self.downward[i];
-            let carried = self.grounded[body]
-                || self.hangs(body)
-                || self.anchored[body]
-                || self.carriers[body].iter().any(|&(c, _)| self.standing[c] || self.anchored[c]);
-            if self.standing[body] && !carried {
+            if self.standing[body] && !self.is_carried(body) {
                 self.standing[body] = false;
                 left.push(body);
             }
         }
-        for carriers in &mut self.carriers {
-            if carriers.iter().any(|&(c, _)| !self.standing[c] && !self.anchored[c]) && carriers.len() > 1 {
-                carriers.retain(|&(c, _)| self.standing[c] || self.anchored[c]);
-                share_out(carriers);
+        for body in 0..self.carriers.len() {
+            let mut carriers = std::mem::take(&mut self.carriers[body]);
+            if carriers.len() > 1 && !carriers.iter().all(|&(c, _)| self.carries(c)) {
+                carriers.retain(|&(c, _)| self.carries(c));
+                share_out(&mut carriers);
             }
+            self.carriers[body] = carriers;
         }
         self.settle_weights();
+    }
+
+    /// Whether a body still carries what stands on it.
+    fn carries(&self, body: usize) -> bool {
+        self.standing[body] || self.footings[body].anchored
+    }
+
+    /// Whether a standing body is still carried: by all that carried it, or by some of it under its centre of mass.
+    fn is_carried(&self, body: usize) -> bool {
+        if self.grounded[body] || self.hangs(body) || self.footings[body].anchored {
+            return true;
+        }
+        let foot = &self.footings[body];
+        let carriers = || self.carriers[body].iter().filter(|&&(c, _)| self.carries(c));
+        if carriers().count() == self.carriers[body].len() {
+            return true;
+        }
+        let corners: Vec<DVec3> = carriers().flat_map(|&(c, _)| patch(&self.footings[c], foot)).collect();
+        !corners.is_empty()
+            && Outline::new([&corners[..]].into_iter(), DVec3::Y, |_| false).distance_to_edge(foot.centre)
+                > 0.0
     }
 
     /// A body has come to rest on the ground again.
@@ -208,6 +231,13 @@ fn share_out(carriers: &mut [(usize, f64)]) {
     for (_, share) in carriers {
         *share /= total;
     }
+}
+
+/// Corners of where two bodies overlap seen from above, a little wider than it is [m].
+fn patch(a: &Footing, b: &Footing) -> [DVec3; 4] {
+    let low = a.low.max(b.low) - CONTACT;
+    let high = a.high.min(b.high) + CONTACT;
+    [(low.x, low.z), (high.x, low.z), (high.x, high.z), (low.x, high.z)].map(|(x, z)| DVec3::new(x, 0.0, z))
 }
 
 fn overlap_from_above(a: &Footing, b: &Footing) -> f64 {

@@ -1,6 +1,6 @@
 //! Mass, centre of mass and moment of inertia of solid bodies of one density.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3, Vec3Swizzles};
 
 use super::TriangleMesh;
 use crate::error::{Error, Result};
@@ -68,7 +68,7 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// The axes in which an inertia tensor is diagonal.
+/// The axes in which an inertia tensor is diagonal. The third has the largest moment: it is normal to a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalAxes {
     /// Rotation that takes principal coordinates into the object's own axes.
@@ -80,7 +80,7 @@ pub struct PrincipalAxes {
 impl PrincipalAxes {
     /// Diagonalises a symmetric inertia tensor by cyclic Jacobi rotations.
     ///
-    /// A tensor that is diagonal already keeps its axes, so that a box's axes stay its edges.
+    /// A tensor that is diagonal already keeps its axes, in their cyclic order, so that a box's axes stay its edges.
     pub fn of(inertia: DMat3) -> Self {
         let mut a = [inertia.x_axis.to_array(), inertia.y_axis.to_array(), inertia.z_axis.to_array()];
         let mut axes = DMat3::IDENTITY;
@@ -97,9 +97,23 @@ impl PrincipalAxes {
         if axes.determinant() < 0.0 {
             axes.z_axis = -axes.z_axis;
         }
-        Self {
+        let axes = Self {
             object_from_principal: DQuat::from_mat3(&axes).normalize(),
             moments: DVec3::new(a[0][0], a[1][1], a[2][2]),
+        };
+        axes.largest_last()
+    }
+
+    /// Renames the axes in their cyclic order so that the third has the largest moment.
+    fn largest_last(self) -> Self {
+        let Self { object_from_principal: q, moments: m } = self;
+        let third_of_turn = DQuat::from_xyzw(0.5, 0.5, 0.5, 0.5);
+        if m.z >= m.x.max(m.y) {
+            self
+        } else if m.x >= m.y {
+            Self { object_from_principal: q * third_of_turn, moments: m.yzx() }
+        } else {
+            Self { object_from_principal: q * third_of_turn.conjugate(), moments: m.zxy() }
         }
     }
 }

@@ -91,90 +91,106 @@ impl Wind {
 /// How a body resists flow: its drag and, for plate-like pieces, its lift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resistance {
-    /// Areas projected along the body's three principal axes [m²].
+    /// ½ C_D A_i / m along the body's three principal axes [m²/kg], with A_i its area projected along the axis.
     ///
     /// Along any other direction ŵ the projected area is that of the ellipsoid with the same three,
     /// `√Σ(A_i ŵ_i)²`: exact along the axes; a box seen corner-on has up to 1.7 times as much, but its
     /// drag coefficient is then about 0.8 instead of 1.05, which takes back part of it.
-    pub areas: DVec3,
-    /// Drag coefficient C_D on the projected area.
-    pub drag_coefficient: f64,
-    /// Lift, for pieces that are several times wider than thick.
-    pub lift: Option<Lift>,
+    pub drag: DVec3,
+    /// ½ C_L A_3 / m of a plate across the third principal axis, the one about which the body turns most sluggishly
+    /// [m²/kg]; 0 without lift.
+    ///
+    /// Lift (thesis 2.38) is normal to the flow, in the plane of flow and plate normal:
+    /// `F_L = ½ ρ |w|² C_L A sin α cos α` at the angle of attack α. It is the part across the flow of a pressure force
+    /// along the plate's normal, as on a flat plate with separated flow.
+    pub lift: f64,
 }
 
-/// Lift of a plate (thesis 2.38): normal to the flow, in the plane of flow and plate normal.
-///
-/// `F_L = ½ ρ |w|² C_L A sin α cos α` at the angle of attack α: the part across the flow of a pressure force along
-/// the plate's normal, as on a flat plate with separated flow.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lift {
-    /// Which principal axis is normal to the plate: 0, 1 or 2.
-    pub axis: u8,
-    /// Lift coefficient C_L.
-    pub coefficient: f64,
-}
-
-/// A piece whose largest projected area is this many times the next is a plate: "a diameter several times
-/// greater than their thickness" (thesis 2.9).
+/// A piece whose projected area along its third axis is this many times the others is a plate: "a diameter several
+/// times greater than their thickness" (thesis 2.9).
 const PLATE_RATIO: f64 = 4.0;
 
 impl Resistance {
-    /// Resistance of a body with the given projected areas. `lift_coefficient` left out means C_L = C_D for
-    /// a plate and none for a chunky piece; a given coefficient applies to either.
-    pub fn new(areas: DVec3, drag_coefficient: f64, lift_coefficient: Option<f64>) -> Self {
-        let a = areas.to_array();
-        let axis = (0..3).max_by(|&i, &j| a[i].total_cmp(&a[j])).expect("three axes");
-        let next = (0..3).filter(|&i| i != axis).map(|i| a[i]).fold(0.0, f64::max);
-        let plate = a[axis] >= PLATE_RATIO * next;
-        let coefficient = lift_coefficient.or(plate.then_some(drag_coefficient));
-        let lift = coefficient.filter(|&c| c > 0.0).map(|coefficient| Lift { axis: axis as u8, coefficient });
-        Self { areas, drag_coefficient, lift }
+    /// Resistance of a body of `mass` [kg] with the given areas [m²], projected along its principal axes.
+    ///
+    /// `lift_coefficient` left out means C_L = C_D for a plate and none for a chunky piece; a given coefficient applies
+    /// to either.
+    pub fn new(areas: DVec3, drag_coefficient: f64, lift_coefficient: Option<f64>, mass: f64) -> Self {
+        let plate = areas.z >= PLATE_RATIO * areas.x.max(areas.y);
+        let lift_coefficient = lift_coefficient.unwrap_or(if plate { drag_coefficient } else { 0.0 });
+        let per_area = 0.5 / mass;
+        Self { drag: areas * (drag_coefficient * per_area), lift: areas.z * lift_coefficient * per_area }
     }
 
     /// Velocity after `dt` in a steady flow `wind` of density `density`, from `velocity`.
     ///
-    /// The drag is solved exactly, `w(t) = w0 / (1 + k |w0| t)` for the relative flow w, so that no step is
-    /// too long for a light shard; the lift turns w without changing its length.
     /// `damping` multiplies drag where it slows the body down (thesis 6.5).
-    #[allow(clippy::too_many_arguments)]
-    #[inline]
     pub fn carry(
         &self,
         velocity: DVec3,
         world_from_principal: DQuat,
-        inverse_mass: f64,
         wind: DVec3,
         density: f64,
         damping: f64,
         dt: f64,
     ) -> DVec3 {
         let relative = wind - velocity;
-        let local = world_from_principal.conjugate() * relative;
-        let half_density_dt = 0.5 * density * inverse_mass * dt;
-        let area_speed = (self.areas * local).length();
         let slowing = if relative.dot(velocity) < 0.0 { damping } else { 1.0 };
-        let rate = half_density_dt * self.drag_coefficient * area_speed * slowing;
-        let mut after = relative / (1.0 + rate);
-        if let Some(lift) = self.lift {
-            after = self.lifted(lift, after, world_from_principal, half_density_dt);
-        }
-        wind - after
+        wind - self.pass::<true>(relative, world_from_principal, density * dt, slowing)
+    }
+
+    /// What is left of the relative flow `w` [m/s] once the air has passed for a while: `exposure` is its density
+    /// times that while [kg s/m³], `slowing` multiplies the drag.
+    ///
+    /// The drag is solved exactly, `w(t) = w0 / (1 + k |w0| t)`, so that no step is too long for a light shard; the
+    /// lift turns w without changing its length. `LIFT` may be false where no body has any: the result is the same to
+    /// the last bit. No branch depends on the body, so that a compiler can do several at once.
+    #[inline(always)]
+    pub fn pass<const LIFT: bool>(
+        &self,
+        w: DVec3,
+        world_from_principal: DQuat,
+        exposure: f64,
+        slowing: f64,
+    ) -> DVec3 {
+        let rate = (self.drag * into_body(world_from_principal, w)).length_squared().sqrt();
+        let slowed = w * (1.0 / (1.0 + exposure * slowing * rate));
+        if LIFT { self.lifted(slowed, world_from_principal, exposure) } else { slowed }
     }
 
     /// Turns the relative flow `w` by one step of lift.
-    fn lifted(&self, lift: Lift, w: DVec3, rotation: DQuat, half_density_dt: f64) -> DVec3 {
-        let speed = w.length();
-        if speed == 0.0 {
-            return w;
-        }
-        let axis = lift.axis as usize;
-        let normal = rotation * DVec3::AXES[axis];
-        let flow = w / speed;
-        let along = flow.dot(normal);
-        let across = normal - flow * along;
-        let turned =
-            w - across * (half_density_dt * lift.coefficient * self.areas[axis] * along * speed * speed);
-        turned * (speed / turned.length())
+    #[inline(always)]
+    fn lifted(&self, w: DVec3, world_from_principal: DQuat, exposure: f64) -> DVec3 {
+        let normal = third_axis(world_from_principal);
+        let across = w.dot(normal);
+        let squared = w.length_squared();
+        // Still air has no direction; the smallest number keeps it from dividing zero by zero.
+        let inverse = 1.0 / (squared + f64::MIN_POSITIVE).sqrt();
+        let sin = across * inverse;
+        let push = exposure * self.lift * across;
+        let sideways = if sin * sin < 1.0 { 1.0 - sin * sin } else { 0.0 };
+        let turned = w * (1.0 + push * sin) - normal * (push * squared * inverse);
+        let kept = turned * (1.0 / (1.0 + push * push * sideways).sqrt());
+        if self.lift > 0.0 { kept } else { w }
     }
+}
+
+/// A vector of the world in the body's axes.
+#[inline(always)]
+fn into_body(world_from_principal: DQuat, v: DVec3) -> DVec3 {
+    let q = world_from_principal;
+    let axis = DVec3::new(q.x, q.y, q.z);
+    let twice = v.cross(axis) * 2.0;
+    v + twice * q.w + twice.cross(axis)
+}
+
+/// The body's third axis in the world.
+#[inline(always)]
+fn third_axis(world_from_principal: DQuat) -> DVec3 {
+    let q = world_from_principal;
+    DVec3::new(
+        2.0 * (q.x * q.z + q.w * q.y),
+        2.0 * (q.y * q.z - q.w * q.x),
+        1.0 - 2.0 * (q.x * q.x + q.y * q.y),
+    )
 }

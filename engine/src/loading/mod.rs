@@ -11,6 +11,6 @@ mod history;
 mod panel;
 
 pub use clearing::Clearing;
-pub use drag::{Lift, Resistance, Wind};
+pub use drag::{Resistance, Wind};
 pub use history::{Drag, Face, FaceHistory, HistorySettings, LoadingMode};
 pub use panel::{BoxFace, Panel, box_panels, mesh_panels};

@@ -1,6 +1,7 @@
 //! From a scene to targets: for each body, which loads come, when, and on which panels.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 use super::shelter::Shelters;
 use crate::blast::{BlastField, BlastPoint, Extension};
 use crate::dynamics::RigidBody;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::{Outline, PrincipalAxes, Silhouette};
 use crate::loading::{
     Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
@@ -29,15 +30,28 @@ pub(super) struct Target {
     pub facts: BodyFacts,
     /// Per charge: nearer than the curves reach, farther than they reach.
     pub reach: Vec<Extension>,
+    /// Per charge: what it alone does at most.
+    pub peaks: Vec<Peaks>,
+}
+
+/// The worst that one charge does to one body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Peaks {
+    /// Incident overpressure [Pa].
+    pub overpressure: f64,
+    /// Pressure on the most loaded panel [Pa].
+    pub load: f64,
 }
 
 /// The loads of one body in the order of their arrival.
 #[derive(Debug, Default)]
 pub(super) struct LoadQueue {
-    panels: Box<[PanelLoad]>,
+    panels: Vec<PanelLoad>,
     /// Panels before this one have been loaded to the end.
     next: usize,
-    pub winds: Box<[Wind]>,
+    pub winds: Vec<Wind>,
+    /// Which charge each wind comes from.
+    wind_charges: Vec<usize>,
     /// When the first load arrives and the last one ends [s].
     pub start: f64,
     pub end: f64,
@@ -46,18 +60,64 @@ pub(super) struct LoadQueue {
 /// Load of one charge on one panel, with its lever on the body, in principal axes.
 #[derive(Debug)]
 struct PanelLoad {
+    charge: usize,
     history: FaceHistory,
     /// Area × inward normal [m²].
     push: DVec3,
     /// Arm × push, with the art direction's rotation factor [m³].
     twist: DVec3,
+    /// It counts only once the body is free: a neighbour or the ground lies against it until then.
+    buried: bool,
 }
 
 impl LoadQueue {
-    /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes.
-    pub fn take(&mut self, t0: f64, t1: f64) -> (DVec3, DVec3) {
+    fn new(shots: impl Iterator<Item = Shot>) -> Self {
+        let mut queue = Self::default();
+        for shot in shots {
+            queue.winds.extend(shot.wind);
+            queue.wind_charges.resize(queue.winds.len(), shot.charge);
+            queue.panels.extend(shot.panels);
+        }
+        queue.sort();
+        queue
+    }
+
+    fn sort(&mut self) {
+        self.panels.sort_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
+        let spans = (self.panels.iter().map(|l| (l.history.arrival(), l.history.end())))
+            .chain(self.winds.iter().map(|w| (w.arrival, w.end)));
+        (self.start, self.end) = spans
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(start, end), (from, to)| {
+                (start.min(from), end.max(to))
+            });
+    }
+
+    /// Puts in the loads of one charge, in place of those it had.
+    pub fn replace(&mut self, shot: Shot) {
+        self.remove(shot.charge);
+        self.winds.extend(shot.wind);
+        self.wind_charges.resize(self.winds.len(), shot.charge);
+        self.panels.extend(shot.panels);
+        self.sort();
+    }
+
+    /// Takes out the loads of one charge.
+    pub fn remove(&mut self, charge: usize) {
+        self.panels.drain(..self.next);
+        self.next = 0;
+        self.panels.retain(|load| load.charge != charge);
+        let mut from = self.wind_charges.iter();
+        self.winds.retain(|_| from.next() != Some(&charge));
+        self.wind_charges.retain(|&from| from != charge);
+        self.sort();
+    }
+
+    /// Impulse [N s] and angular impulse [N m s] of all panels from `t0` to `t1`, in principal axes; `free` says
+    /// whether those that were buried are laid bare.
+    pub fn take(&mut self, t0: f64, t1: f64, free: bool) -> (DVec3, DVec3) {
         let (mut impulse, mut angular) = (DVec3::ZERO, DVec3::ZERO);
-        for load in self.panels[self.next..].iter().take_while(|load| load.history.arrival() < t1) {
+        let begun = self.panels[self.next..].iter().take_while(|load| load.history.arrival() < t1);
+        for load in begun.filter(|load| free || !load.buried) {
             let strength = load.history.impulse(t0, t1);
             impulse += load.push * strength;
             angular += load.twist * strength;
@@ -90,26 +150,42 @@ impl LoadQueue {
 struct Geometry {
     body: RigidBody,
     object_from_principal: DQuat,
-    /// In principal axes.
-    panels: Vec<Panel>,
+    /// In principal axes, each with whether it is buried at the start.
+    panels: Vec<(Panel, bool)>,
     corners: Box<[DVec3]>,
     world_corners: Vec<DVec3>,
 }
 
+/// Bodies made ready between two looks at the observer.
+const BATCH: usize = 2048;
+
 /// Makes every body of a scene ready. The order is that of the scene.
-pub(super) fn aim(scene: &Scene, fields: &[BlastField], shelters: &Shelters) -> Result<Vec<Target>> {
-    let geometries: Vec<Geometry> = scene.bodies.par_iter().map(Geometry::of).collect::<Result<_>>()?;
+pub(super) fn aim(
+    scene: &Scene,
+    fields: &[BlastField],
+    shelters: &Shelters,
+    observer: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Vec<Target>> {
+    let mut listen = || if observer().is_break() { Err(Error::Cancelled) } else { Ok(()) };
+    let mut geometries = Vec::with_capacity(scene.bodies.len());
+    for bodies in scene.bodies.chunks(BATCH) {
+        geometries.extend(bodies.par_iter().map(Geometry::of).collect::<Result<Vec<_>>>()?);
+        listen()?;
+    }
     let outlines = assembly_outlines(scene, fields, &geometries);
-    Ok(scene
-        .bodies
-        .par_iter()
-        .zip(geometries)
-        .enumerate()
-        .map(|(index, (body, geometry))| {
-            let assembly = body.assembly.map(|id| &outlines[&id][..]);
+    let mut targets = Vec::with_capacity(geometries.len());
+    let mut rest = geometries.into_iter();
+    while targets.len() < scene.bodies.len() {
+        let first = targets.len();
+        let batch: Vec<Geometry> = rest.by_ref().take(BATCH).collect();
+        targets.par_extend(batch.into_par_iter().enumerate().map(|(offset, geometry)| {
+            let index = first + offset;
+            let assembly = scene.bodies[index].assembly.map(|id| &outlines[&id][..]);
             target(scene, fields, shelters, index, geometry, assembly)
-        })
-        .collect())
+        }));
+        listen()?;
+    }
+    Ok(targets)
 }
 
 impl Geometry {
@@ -117,21 +193,28 @@ impl Geometry {
         let properties = body.mass_properties()?;
         let axes = PrincipalAxes::of(properties.inertia);
         let into_principal = axes.object_from_principal.conjugate();
-        let (panels, corners) = match &body.shape {
-            Shape::Box { size, buried } => (box_panels(*size, *buried), box_corners(*size)),
+        let (open, buried, corners) = match &body.shape {
+            Shape::Box { size, buried } => {
+                let hidden = box_panels(*size, buried.map(|face| !face));
+                (box_panels(*size, *buried), hidden, box_corners(*size))
+            }
             Shape::Mesh(mesh) => {
                 let centred = mesh.extreme_points().into_iter().map(|p| p - properties.centre).collect();
-                (mesh_panels(mesh, properties.centre), centred)
+                (mesh_panels(mesh, properties.centre), Vec::new(), centred)
             }
         };
-        let panels: Vec<Panel> = panels
-            .into_iter()
-            .map(|p| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p })
-            .collect();
+        let principal =
+            |p: Panel| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p };
+        let open = open.into_iter().map(|p| (principal(p), false));
+        let panels: Vec<(Panel, bool)> =
+            open.chain(buried.into_iter().map(|p| (principal(p), true))).collect();
         let corners: Box<[DVec3]> = corners.into_iter().map(|p| into_principal * p).collect();
         let areas = match body.shape {
-            Shape::Box { size, .. } => DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y),
-            Shape::Mesh(_) => panels.iter().map(|p| p.normal.abs() * (0.5 * p.area)).sum(),
+            Shape::Box { size, .. } => {
+                let size = (into_principal * size).abs();
+                DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y)
+            }
+            Shape::Mesh(_) => panels.iter().map(|(p, _)| p.normal.abs() * (0.5 * p.area)).sum(),
         };
         let may_turn = body.can_rotate && !body.anchored;
         let state = RigidBody {
@@ -141,17 +224,15 @@ impl Geometry {
             angular_momentum: DVec3::ZERO,
             inverse_mass: 1.0 / body.mass,
             inverse_moments: if may_turn { axes.moments.recip() } else { DVec3::ZERO },
-            resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient),
+            resistance: Resistance::new(areas, body.drag_coefficient, body.lift_coefficient, body.mass),
             reach: corners.iter().map(|c| c.length()).fold(0.0, f64::max),
         };
-        let world_corners =
-            corners.iter().map(|&c| state.position + state.world_from_principal * c).collect();
         Ok(Self {
             body: state,
             object_from_principal: axes.object_from_principal,
             panels,
+            world_corners: world_corners(&state, &corners),
             corners,
-            world_corners,
         })
     }
 
@@ -160,6 +241,10 @@ impl Geometry {
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
     }
+}
+
+fn world_corners(body: &RigidBody, corners: &[DVec3]) -> Vec<DVec3> {
+    corners.iter().map(|&c| body.position + body.world_from_principal * c).collect()
 }
 
 fn box_corners(size: DVec3) -> Vec<DVec3> {
@@ -214,56 +299,38 @@ fn target(
     geometry: Geometry,
     assembly: Option<&[Outline]>,
 ) -> Target {
-    let body = &scene.bodies[index];
+    let shots: Vec<Shot> = (0..fields.len())
+        .map(|charge| {
+            shot(
+                scene,
+                fields,
+                shelters,
+                charge,
+                index,
+                &geometry,
+                assembly.map(|outlines| &outlines[charge]),
+            )
+        })
+        .collect();
     let mut facts = BodyFacts {
-        mass: body.mass,
+        mass: scene.bodies[index].mass,
         distance: f64::INFINITY,
         arrival_time: f64::INFINITY,
         attenuation: 1.0,
         ..BodyFacts::default()
     };
-    let mut loads = Vec::new();
-    let mut winds = Vec::new();
-    let mut reach = Vec::with_capacity(fields.len());
     let mut share = Share::default();
-    for (charge, field) in fields.iter().enumerate() {
-        let eye = field.position();
-        let alone;
-        let around = if let Some(outlines) = assembly {
-            &outlines[charge]
-        } else {
-            alone = outline(&[&geometry], geometry.body.position, eye, scene.ground.map(|g| g.height));
-            &alone
-        };
-        let sight = line_of_sight(geometry.body.position, eye);
-        let half_width = 0.5 * Silhouette::new(&geometry.world_corners, sight, |_| false).least_width();
-        let gain = scene.charges[charge].gain;
-        let aimed = Aim {
-            scene,
-            field,
-            shelters,
-            charge,
-            index,
-            gain,
-            body,
-            geometry: &geometry,
-            half_width,
-            around,
-        };
-        let shelter = shelters.body(charge, index);
-        let centre = aimed.at(geometry.body.position, &shelter);
-        let first = loads.len();
-        let (frontal_area, extension) = aimed.load_panels(&mut loads, &mut facts, &mut share);
-        reach.push(extension);
-        if loads.len() > first && scene.loading.drag == Drag::FlowRelative && shelter.attenuation > 0.0 {
-            winds.push(aimed.wind(&centre, shelter.attenuation));
+    for shot in &shots {
+        if shot.distance < facts.distance {
+            facts.distance = shot.distance;
+            facts.frontal_area = shot.frontal_area;
+            facts.attenuation = shot.attenuation;
         }
-        if centre.distance < facts.distance {
-            facts.distance = centre.distance;
-            facts.frontal_area = frontal_area;
-            facts.attenuation = shelter.attenuation;
-        }
-        facts.arrival_time = facts.arrival_time.min(centre.arrival_time);
+        share.open += shot.share.open;
+        share.received += shot.share.received;
+        facts.arrival_time = facts.arrival_time.min(shot.arrival);
+        facts.peak_overpressure = facts.peak_overpressure.max(shot.peaks.overpressure);
+        facts.peak_load = facts.peak_load.max(shot.peaks.load);
     }
     facts.attenuation = share.of_open().unwrap_or(facts.attenuation);
     Target {
@@ -271,23 +338,90 @@ fn target(
         bounds: geometry.bounds(),
         corners: geometry.corners,
         body: geometry.body,
-        queue: queue(loads, winds),
         facts,
-        reach,
+        reach: shots.iter().map(|shot| shot.extension).collect(),
+        peaks: shots.iter().map(|shot| shot.peaks).collect(),
+        queue: LoadQueue::new(shots.into_iter()),
     }
 }
 
-fn queue(mut panels: Vec<PanelLoad>, winds: Vec<Wind>) -> LoadQueue {
-    panels.sort_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
-    let starts = panels.iter().map(|l| l.history.arrival()).chain(winds.iter().map(|w| w.arrival));
-    let ends = panels.iter().map(|l| l.history.end()).chain(winds.iter().map(|w| w.end));
-    LoadQueue {
-        start: starts.fold(f64::INFINITY, f64::min),
-        end: ends.fold(f64::NEG_INFINITY, f64::max),
-        panels: panels.into(),
-        next: 0,
-        winds: winds.into(),
-    }
+/// A charge aimed at a body that has left its place: where it is now, turned as it is, alone and with all faces bare,
+/// as sheltered as it was in its place.
+pub(super) fn aim_anew(
+    scene: &Scene,
+    fields: &[BlastField],
+    shelters: &Shelters,
+    charge: usize,
+    index: usize,
+    body: RigidBody,
+) -> Shot {
+    let mut geometry = Geometry::of(&scene.bodies[index]).expect("it was aimed at before");
+    geometry.body = body;
+    geometry.world_corners = world_corners(&body, &geometry.corners);
+    geometry.panels.iter_mut().for_each(|(_, buried)| *buried = false);
+    shot(scene, fields, shelters, charge, index, &geometry, None)
+}
+
+/// What one charge does to one body.
+pub(super) struct Shot {
+    charge: usize,
+    panels: Vec<PanelLoad>,
+    wind: Option<Wind>,
+    /// Open area projected toward the charge [m²].
+    frontal_area: f64,
+    /// From the charge to the centre of mass [m].
+    distance: f64,
+    /// When the front comes [s].
+    arrival: f64,
+    /// Share of the load that its shelter as a whole leaves it.
+    attenuation: f64,
+    /// The same of the panels that face the charge.
+    share: Share,
+    pub peaks: Peaks,
+    /// How far the curves were stretched for it.
+    extension: Extension,
+}
+
+fn shot(
+    scene: &Scene,
+    fields: &[BlastField],
+    shelters: &Shelters,
+    charge: usize,
+    index: usize,
+    geometry: &Geometry,
+    assembly: Option<&Outline>,
+) -> Shot {
+    let field = &fields[charge];
+    let (middle, eye) = (geometry.body.position, field.position());
+    let alone;
+    let around = if let Some(outline) = assembly {
+        outline
+    } else {
+        alone = outline(&[geometry], middle, eye, scene.ground.map(|g| g.height));
+        &alone
+    };
+    let seen = Silhouette::new(&geometry.world_corners, line_of_sight(middle, eye), |_| false);
+    let aim = Aim {
+        scene,
+        field,
+        shelters,
+        charge,
+        index,
+        body: &scene.bodies[index],
+        geometry,
+        half_width: 0.5 * seen.least_width(),
+        around,
+    };
+    let shelter = shelters.body(charge, index);
+    let centre = aim.at(middle, &shelter);
+    let mut shot = aim.load_panels();
+    let blows = shelter.attenuation > 0.0 && shot.panels.iter().any(|load| !load.buried);
+    shot.wind =
+        (blows && scene.loading.drag == Drag::FlowRelative).then(|| aim.wind(&centre, shelter.attenuation));
+    shot.distance = centre.distance;
+    shot.arrival = shot.arrival.min(centre.arrival_time);
+    shot.attenuation = shelter.attenuation;
+    shot
 }
 
 /// What a body's panels receive of the loads they would have in the open.
@@ -312,22 +446,28 @@ struct Aim<'a> {
     shelters: &'a Shelters,
     charge: usize,
     index: usize,
-    gain: f64,
     body: &'a Body,
     geometry: &'a Geometry,
+    /// Half the smaller extent of the piece as the charge sees it [m].
     half_width: f64,
     around: &'a Outline,
 }
 
 impl Aim<'_> {
-    /// Appends the load of every panel that has one; returns the frontal area and how far the curves were
-    /// stretched for it.
-    fn load_panels(
-        &self,
-        loads: &mut Vec<PanelLoad>,
-        facts: &mut BodyFacts,
-        share: &mut Share,
-    ) -> (f64, Extension) {
+    /// The load of every panel that has one, and what can be told of them together.
+    fn load_panels(&self) -> Shot {
+        let mut shot = Shot {
+            charge: self.charge,
+            panels: Vec::new(),
+            wind: None,
+            frontal_area: 0.0,
+            distance: f64::INFINITY,
+            arrival: f64::INFINITY,
+            attenuation: 1.0,
+            share: Share::default(),
+            peaks: Peaks::default(),
+            extension: Extension::Inside,
+        };
         let state = &self.geometry.body;
         let lowest = self.scene.ground.map_or(f64::NEG_INFINITY, |g| g.height);
         let settings = HistorySettings {
@@ -335,42 +475,57 @@ impl Aim<'_> {
             drag: self.scene.loading.drag,
             shape: self.scene.loading.pulse,
             negative_phase: self.scene.loading.negative_phase,
-            gain: self.gain,
+            gain: self.gain(),
         };
-        let mut frontal_area = 0.0;
-        let mut extension = Extension::Inside;
-        for (number, panel) in self.geometry.panels.iter().enumerate() {
+        let surface = settings.mode == LoadingMode::Surface;
+        let open_only = |(_, (_, buried)): &(usize, &(Panel, bool))| surface || !buried;
+        for (number, &(panel, buried)) in self.geometry.panels.iter().enumerate().filter(open_only) {
             let centre = state.position + state.world_from_principal * panel.centre;
             let shelter = self.shelters.panel(self.charge, self.index, number);
             let point = self.at(centre, &shelter);
             let cos_alpha = -(state.world_from_principal * panel.normal).dot(point.direction);
-            frontal_area += panel.area * cos_alpha.max(0.0);
-            let faces = cos_alpha > 0.0;
-            if centre.y < lowest || !(faces || settings.mode == LoadingMode::Surface) {
+            let faces = cos_alpha > 0.0 && !buried;
+            if faces {
+                shot.frontal_area += panel.area * cos_alpha;
+            }
+            if (centre.y < lowest && !buried) || !(faces || surface) {
                 continue;
             }
-            let open = self.gain * point.reflected_impulse * panel.area * cos_alpha.max(0.0);
-            share.open += open;
-            share.received += open * shelter.attenuation;
-            facts.arrival_time = facts.arrival_time.min(point.arrival_time);
-            facts.peak_overpressure = facts.peak_overpressure.max(point.overpressure);
+            let open = self.gain() * point.reflected_impulse * panel.area * cos_alpha.max(0.0);
+            if faces {
+                shot.share.open += open;
+                shot.share.received += open * shelter.attenuation;
+            }
+            shot.arrival = shot.arrival.min(point.arrival_time);
+            shot.peaks.overpressure = shot.peaks.overpressure.max(point.overpressure);
             if point.extension != Extension::Inside {
-                extension = point.extension;
+                shot.extension = point.extension;
             }
             if shelter.attenuation == 0.0 {
                 continue;
             }
             let clearing_length = self.scene.loading.clearing.length(centre, self.half_width, self.around);
-            let face = if faces { Face::Front { clearing_length } } else { Face::Rear { clearing_length } };
+            let face = match (faces, buried) {
+                (true, _) => Face::Front { clearing_length },
+                (false, false) => Face::Rear { clearing_length },
+                // No shock strikes a face that is laid bare while the wave is passing: it feels what is there.
+                (false, true) => Face::Rear { clearing_length: 0.0 },
+            };
             let drag_coefficient = self.body.drag_coefficient;
-            let settings = HistorySettings { gain: self.gain * shelter.attenuation, ..settings };
+            let settings = HistorySettings { gain: settings.gain * shelter.attenuation, ..settings };
             let history = FaceHistory::new(self.field, &point, cos_alpha, face, drag_coefficient, settings);
-            facts.peak_load = facts.peak_load.max(history.peak());
+            if !buried {
+                shot.peaks.load = shot.peaks.load.max(history.peak());
+            }
             let push = -panel.normal * panel.area;
             let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
-            loads.push(PanelLoad { history, push, twist });
+            shot.panels.push(PanelLoad { charge: self.charge, history, push, twist, buried });
         }
-        (frontal_area, extension)
+        shot
+    }
+
+    fn gain(&self) -> f64 {
+        self.scene.charges[self.charge].gain
     }
 
     /// The field at a point, which the front reaches by a detour round what is before it.
@@ -386,7 +541,7 @@ impl Aim<'_> {
         let loading = &self.scene.loading;
         let mut pulse = centre.pulse(loading.pulse);
         pulse.negative = loading.negative_phase.then(|| self.field.negative_phase(centre.distance));
-        Wind::new(centre, pulse, &self.scene.air, self.gain * attenuation)
+        Wind::new(centre, pulse, &self.scene.air, self.gain() * attenuation)
     }
 }
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from brisance.interrupt import if_stopped, restore_terminal
+
 if TYPE_CHECKING:
     from brisance.render import Progress
 
@@ -79,7 +81,7 @@ def shown(wanted: bool) -> Iterator[Progress | None]:
         yield None
         return
     columns = (*Progress.get_default_columns()[:2], MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
+    with if_stopped(restore_terminal), Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("rendering", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
 

@@ -43,12 +43,15 @@ def run(
       brisance run scenes/brick_wall.toml -o wall.usdc --report wall.json --set charge.0.mass=50
     """
     from brisance.errors import InputError
-    from brisance.result import check_output
+    from brisance.formats.atomic import check_writable
+    from brisance.result import USD_SUFFIXES, check_output
     from brisance.scene_file import load
     from brisance.simulation import simulate
 
-    if output is not None:
-        check_output(output)
+    if output is not None and check_writable(output).suffix.lower() not in USD_SUFFIXES:
+        raise InputError(
+            f"-o {output}: an animation is USD, so give a name that ends in .usdc (or .usda, .usd, .usdz)."
+        )
     if report is not None:
         if report.suffix.lower() != ".json":
             raise InputError(f"--report {report}: a report is JSON, so give a name that ends in .json.")

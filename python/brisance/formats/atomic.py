@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from brisance.errors import InputError
+from brisance.interrupt import if_stopped
 
 
 def check_writable(path: Path | str) -> Path:
@@ -48,8 +49,9 @@ def replacing(path: Path | str) -> Iterator[Path]:
     path = check_writable(path)
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.tmp{path.suffix}")
     try:
-        yield temporary
-        os.replace(temporary, path)
+        with if_stopped(temporary.unlink):
+            yield temporary
+            os.replace(temporary, path)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise InputError(f"{path} could not be written: {reason}.") from error

@@ -32,7 +32,10 @@ class Charge(Model):
     )
     time: NotNegative = Field(default=0.0, description="Moment of detonation [s], 0 or later; default 0.")
     gain: NotNegative = Field(
-        default=1.0, description="Art direction: multiplies every load of this charge, 0 or more; default 1."
+        default=1.0,
+        le=1000.0,
+        description="Art direction: multiplies every load of this charge, 0 to 1000; default 1, the physical "
+        "value.",
     )
     curves: Annotated[str, Field(min_length=1)] = Field(
         default="kingery-bulmash",

@@ -11,6 +11,21 @@ from pydantic import Field, StrictBool, model_validator
 from brisance.model.base import Count, Lengths, Material, Model, Name, NotNegative, Positive, Vector
 from brisance.rotation import quaternion_from_degrees, rotate
 
+LEAST_DENSITY = 0.1
+"""Density [kg/m³] below which a body is refused. It is a twelfth of air's: such a body would float, which is
+not modelled.
+"""
+
+
+def check_weight(mass: float, volume: float) -> None:
+    """Raise ValueError for a body of ``mass`` [kg] next to nothing for its ``volume`` [m³]."""
+    least = LEAST_DENSITY * volume
+    if mass < least:
+        raise ValueError(
+            f"has a mass of {mass:.3g} kg, far less than the air in its place; give it {least:.2g} kg or "
+            f"more, which is a density of {LEAST_DENSITY:g}"
+        )
+
 
 class SceneObject(Model):
     """What every object in a scene has in common."""
@@ -43,7 +58,9 @@ class SceneObject(Model):
         default=1.05, description="Drag coefficient of its pieces, 0 or more; default 1.05, that of a cube."
     )
     lift_coefficient: NotNegative | None = Field(
-        default=None, description="Lift coefficient for plate-like pieces, 0 or more; left out: no lift."
+        default=None,
+        description="Lift coefficient, 0 or more; left out: the drag coefficient for plates, none for chunky "
+        "pieces.",
     )
 
     def orientation(self) -> tuple[float, float, float, float]:
@@ -94,6 +111,11 @@ class Block(_Weighed):
     material: Material = Field(
         default="wood", description="What it looks like; default wood. No part in the physics."
     )
+
+    @model_validator(mode="after")
+    def _heavier_than_air(self) -> Block:
+        check_weight(self.weight, math.prod(self.size))
+        return self
 
     @property
     def weight(self) -> float:
@@ -149,6 +171,7 @@ class BrickWall(SceneObject):
                 else "has neither density nor brick_mass"
             )
             raise ValueError(f"{both}; give exactly one of them")
+        check_weight(self.whole_mass, math.prod(self.brick_size))
         if self.mortar_gap >= self.brick_size[0]:
             raise ValueError(
                 "has a mortar_gap as wide as a brick is long; make it smaller than the length of a brick"

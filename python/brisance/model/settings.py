@@ -39,14 +39,19 @@ class Time(Model):
 class Air(Model):
     """The still air before the blast. `[air]`"""
 
-    pressure: Positive = Field(
+    pressure: Number = Field(
         default=101325.0,
-        description="Ambient pressure [Pa], above 0; default 101325. Lower (at altitude) weakens and widens "
-        "a blast.",
+        ge=100.0,
+        le=1e7,
+        description="Ambient pressure [Pa], 100 to 1e7; default 101325. Lower (at altitude) weakens and "
+        "widens a blast.",
     )
-    temperature: Positive = Field(
+    temperature: Number = Field(
         default=288.15,
-        description="Ambient temperature [K], above 0; default 288.15. Higher makes the front arrive sooner.",
+        ge=100.0,
+        le=1000.0,
+        description="Ambient temperature [K], 100 to 1000; default 288.15. Higher makes the front arrive "
+        "sooner.",
     )
 
 

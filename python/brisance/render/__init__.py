@@ -16,6 +16,7 @@ from typing import Literal
 
 from brisance.errors import InputError
 from brisance.formats.atomic import check_writable, replacing
+from brisance.interrupt import if_stopped
 from brisance.render.blender import rendered, require
 from brisance.render.job import Job
 from brisance.render.output import Output, OutputKind
@@ -74,7 +75,8 @@ def render(
     stage = read_stage(usd)
     frames = _frames(stage.frames, target, frame, usd)
     quality = quality or ("final" if target.kind is OutputKind.PICTURE else "draft")
-    with tempfile.TemporaryDirectory(prefix="brisance-render-") as folder, ExitStack() as stack:
+    work = tempfile.TemporaryDirectory(prefix="brisance-render-")
+    with work as folder, if_stopped(work.cleanup), ExitStack() as stack:
         job = prepare(
             stage,
             frames=frames,

@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from brisance.errors import BrisanceError, InputError
+from brisance.interrupt import if_stopped
 from brisance.render.job import Job
 
 COMMAND = [sys.executable, "-m", "brisance.render.blender_worker"]
@@ -66,14 +67,19 @@ def _worker(job: Job) -> Iterator[subprocess.Popen[str]]:
         env=_environment(),
         start_new_session=True,
     )
-    try:
-        assert process.stdin is not None
-        with suppress(BrokenPipeError), process.stdin:
-            process.stdin.write(job.to_json())
-        yield process
-    finally:
+
+    def end() -> None:
         process.kill()
         process.wait()
+
+    try:
+        with if_stopped(end):
+            assert process.stdin is not None
+            with suppress(BrokenPipeError), process.stdin:
+                process.stdin.write(job.to_json())
+            yield process
+    finally:
+        end()
         if process.stdout is not None:
             process.stdout.close()
 

@@ -34,6 +34,7 @@ from brisance.formats.usd.authoring import attribute
 from brisance.formats.usd.materials import author_materials
 from brisance.formats.usd.show import Show
 from brisance.formats.usd.surroundings import author_charges, author_ground
+from brisance.interrupt import if_stopped
 
 if TYPE_CHECKING:
     from brisance.result import Result
@@ -179,7 +180,8 @@ def _export(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
 def _package(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
     from pxr import UsdUtils
 
-    with TemporaryDirectory() as folder:
+    work = TemporaryDirectory()
+    with work as folder, if_stopped(work.cleanup):
         inner = Path(folder) / f"{Tf.MakeValidIdentifier(shown.stem)}.usdc"
         _export(layer, inner, shown=shown)
         os.utime(inner, (_PACKAGE_TIME, _PACKAGE_TIME))

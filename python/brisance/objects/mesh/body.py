@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from brisance.errors import InputError
 from brisance.model import MeshObject
+from brisance.model.objects import check_weight
 from brisance.objects.mesh.file import read_mesh_file
 from brisance.objects.mesh.measure import centroid, mesh_contains, volume
 from brisance.objects.mesh.polygons import Indices, Points, PolygonMesh, triangulate
@@ -90,7 +92,7 @@ def mesh_body(obj: MeshObject, *, base_folder: Path, name: str) -> MeshBody:
     closed = repair(polygons.points, triangles, label=label)
     centre = centroid(closed.points, closed.triangles)
     warnings = ["; ".join(clauses) for clauses in (polygons.warnings, closed.clauses) if clauses]
-    return MeshBody(
+    body = MeshBody(
         obj=obj,
         name=name,
         vertices=np.ascontiguousarray(closed.points),
@@ -100,6 +102,11 @@ def mesh_body(obj: MeshObject, *, base_folder: Path, name: str) -> MeshBody:
         look=_look(polygons, face, closed, centre),
         warnings=[f"{label}: {warning}" for warning in warnings],
     )
+    try:
+        check_weight(body.mass, body.volume)
+    except ValueError as error:
+        raise InputError(f'mesh "{name}" {error}') from None
+    return body
 
 
 def mesh_pieces(obj: MeshObject, *, base_folder: Path, name: str) -> PieceSet:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 
 from brisance.errors import InputError
 from brisance.objects.mesh.obj_file import read_obj
 from brisance.objects.mesh.polygons import Points, PolygonMesh, merged
+
+if TYPE_CHECKING:
+    import trimesh
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 TRIANGLES = (".stl", ".ply", ".off", ".glb", ".gltf")
@@ -28,7 +31,8 @@ def read_mesh_file(path: Path, *, label: str) -> PolygonMesh:
     """
     if not path.exists():
         raise InputError(
-            f"{label} does not exist in {path.parent}; give a path that starts from the scene's folder"
+            f"{label} does not exist: {path.resolve()} is not there; give a path that starts "
+            "from the scene's folder"
         )
     if not path.is_file():
         raise InputError(f"{label} is a folder; give a mesh file ({', '.join(SUFFIXES)})")
@@ -58,6 +62,8 @@ def read_mesh_file(path: Path, *, label: str) -> PolygonMesh:
 
 def _read_triangles(path: Path, suffix: str) -> PolygonMesh:
     """STL, PLY, OFF and glTF by trimesh."""
+    import trimesh  # it takes a while to load
+
     with path.open("rb") as stream:
         resolver = trimesh.resolvers.FilePathResolver(str(path))
         scene = trimesh.load_scene(stream, file_type=suffix[1:], resolver=resolver, process=False)

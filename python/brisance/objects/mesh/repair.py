@@ -59,6 +59,11 @@ def repair(points: Points, triangles: Indices, *, label: str) -> RepairedMesh:
     notes = Notes()
     surface = clean(points, triangles, notes)
     if not len(surface.triangles):
+        if notes.not_numbers:
+            raise InputError(
+                f"{label} has no face that can be used: {notes.not_numbers} of its {len(triangles)} have a "
+                "corner that is not a finite number; export it anew"
+            )
         raise InputError(f"{label} is empty: it has no face with an area; give a mesh with faces")
     width = size(surface.points, surface.triangles)
     if width > _LARGEST:
