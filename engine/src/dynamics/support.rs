@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::GRAVITY;
-use crate::geometry::Outline;
+use crate::geometry::Silhouette;
 
 /// Two faces closer than this stand on each other [m]: a bed of mortar, or the sloppiness of a hand-made scene.
 const JOINT: f64 = 0.02;
@@ -177,9 +177,7 @@ impl Support {
             return true;
         }
         let corners: Vec<DVec3> = carriers().flat_map(|&(c, _)| patch(&self.footings[c], foot)).collect();
-        !corners.is_empty()
-            && Outline::new([&corners[..]].into_iter(), DVec3::Y, |_| false).distance_to_edge(foot.centre)
-                > 0.0
+        !corners.is_empty() && Silhouette::new(&corners, DVec3::Y, |_| false).holds(foot.centre, DVec3::Y)
     }
 
     /// A body has come to rest on the ground again.

@@ -47,6 +47,13 @@ impl Silhouette {
         &self.outline
     }
 
+    /// Whether the outline holds a point of space, projected along the `direction` that the outline was made with.
+    pub fn holds(&self, point: DVec3, direction: DVec3) -> bool {
+        let (right, up) = direction.any_orthonormal_pair();
+        let p = DVec2::new(right.dot(point), up.dot(point));
+        self.edges().all(|(a, b, _)| (b - a).perp_dot(p - a) > 0.0)
+    }
+
     fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2, bool)> + '_ {
         let count = self.outline.len();
         (0..count).map(move |i| (self.outline[i].0, self.outline[(i + 1) % count].0, self.outline[i].1))
