@@ -231,8 +231,10 @@ pub fn respond(oscillator: &Oscillator, load: &impl Load, step: f64, end: f64) -
             let before = run.now;
             run.step(time);
             history.push(run.now);
-            let top = crest(&before, &run.now).unwrap_or((time, run.now.displacement));
-            if top.1 > highest {
+            let last = (time == end).then_some((time, run.now.displacement));
+            if let Some(top) = crest(&before, &run.now).or(last)
+                && exceeds(top.1, highest)
+            {
                 (when, highest) = top;
             }
         }
@@ -240,6 +242,11 @@ pub fn respond(oscillator: &Oscillator, load: &impl Load, step: f64, end: f64) -
     }
     let permanent_set = settled(run.now.set, oscillator);
     Ok(Response { max_displacement: highest, time_of_max: when, permanent_set, history })
+}
+
+/// Whether a crest is higher by more than rounding: of equal crests the first counts.
+fn exceeds(top: f64, highest: f64) -> bool {
+    top > highest * (1.0 + 1e-9)
 }
 
 /// The set without the rounding that is left of it in an elastic structure.
