@@ -17,6 +17,7 @@ from pxr import Gf, Usd, UsdGeom
 from brisance import _engine
 from brisance.errors import InputError
 from brisance.model import Charge, Ground, MeshObject, Scene
+from brisance.model.settings import Occlusion
 from brisance.objects.mesh import MeshBody, mesh_body, mesh_contains
 from brisance.objects.mesh.repair import repair
 from brisance.rotation import matrix_from_quaternion, quaternion_from_degrees, rotate
@@ -438,6 +439,7 @@ def engine_scene() -> _engine.Scene:
         drag="flow-relative",
         pulse="friedlander",
         negative_phase=False,
+        occlusion=Occlusion(enabled=False).model_dump(),
         damping_factor=1.0,
         rotation_factor=1.0,
     )
@@ -520,6 +522,7 @@ def test_engine_flies_a_mesh_like_the_box_it_is(tmp_path: Path) -> None:
         buried=np.zeros((1, 6), bool),
         assembly=False,
         anchored=False,
+        occludes=True,
         can_rotate=True,
         friction=0.6,
         drag_coefficient=1.05,
