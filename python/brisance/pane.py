@@ -34,6 +34,8 @@ square of 50 mm, which are 7.9 mm wide."""
 MATERIAL = "glass"
 CRACK_LENGTH = 2.7
 """Length of all cracks over the root of the pane's area times its pieces, at most about."""
+NEAR = 1e-6
+"""A start this near to the border, as a share of the pane's longer side, is on it."""
 SUFFIXES = (".svg", ".png", ".json", ".usdc", ".usda", ".usd", ".usdz")
 """Endings of the files that a broken pane can be written to."""
 
@@ -201,7 +203,7 @@ def fracture(
             toward=None if pattern.toward is None else math.radians(pattern.toward),
             seed=seed,
         )
-    except ValueError as error:
+    except InputError as error:
         sentence = str(error)
         if sentence.startswith("the outline "):
             raise ArgumentError("outline", f"{sentence.removeprefix('the outline ')}.") from error
@@ -262,15 +264,18 @@ def _check_size(pattern: Pattern, area: float, *, longer_side: float, pieces: in
 
 
 def _check_seeds(pattern: Pattern, rings: list[Array], seeds: Array) -> None:
-    """Refuse a start in a notch or hole of the pane: an odd number of sides must lie to its right."""
-    for share, (x, y) in zip(pattern.seeds, seeds, strict=True):
-        inside = False
-        for ring in rings:
-            (ax, ay), (bx, by) = ring.T, np.roll(ring, -1, axis=0).T
-            straddles = (ay > y) != (by > y)
-            rise = np.where(straddles, by - ay, 1.0)
-            inside ^= bool((straddles & (ax + (bx - ax) * (y - ay) / rise > x)).sum() % 2)
-        if not inside:
+    """Refuse a start on the border, or in a notch or hole: an odd number of sides must lie to its right."""
+    begin = np.concatenate(rings)
+    side = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - begin
+    near = NEAR * float(np.ptp(begin, axis=0).max())
+    for share, seed in zip(pattern.seeds, seeds, strict=True):
+        x, y = (seed - begin).T
+        straddles = (y < 0) != (y < side[:, 1])
+        right = side[:, 0] * y / np.where(straddles, side[:, 1], 1.0) > x
+        length = np.maximum((side**2).sum(axis=1), np.finfo(float).tiny)
+        foot = np.clip((x * side[:, 0] + y * side[:, 1]) / length, 0.0, 1.0)
+        gap = np.hypot(x - foot * side[:, 0], y - foot * side[:, 1]).min()
+        if (straddles & right).sum() % 2 == 0 or gap < near:
             raise ArgumentError(
                 "seeds",
                 f"{share[0]:g} {share[1]:g} lies outside the pane or on its border; give shares of width and "

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 SQUARE = 1.0
 """Side of the pane where no size is given [m]."""
 MANY = 50_000
-"""Fragments from which on cracking and writing take long enough to be announced."""
+"""Fragments from which on writing takes long enough to be announced."""
 
 
 class Glass(StrEnum):
@@ -44,8 +44,8 @@ def fracture(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Pane of any outline, with holes: .csv of x,y in metres, an empty line between rings; .json, "
-            "a list of rings of [x, y]; .svg at its true size.",
+            help="Pane of any outline, with holes: .csv of x,y in metres, an empty line between rings; "
+            ".json, a list of rings of [x, y]; .svg at its true size.",
         ),
     ] = None,
     pieces: Annotated[
@@ -145,18 +145,16 @@ def fracture(
         reach=reach,
         toward=toward,
     )
-    announce = not quiet and (pieces or 0) >= MANY
-    if announce:
-        typer.echo("cracking", err=True)
     flags = _FLAGS if outline is None else {**_FLAGS, "outline": f"--outline {outline}"}
     with named(flags):
         broken = break_pane(
             pattern, width=width, height=height, outline=outline, thickness=thickness, seed=seed
         )
     for path in output or ():
-        if announce:
+        if not quiet and len(broken.engine) >= MANY:
             typer.echo(f"writing {path}", err=True)
-        broken.write(path, size=pixels)
+        with named():
+            broken.write(path, size=pixels)
     if not quiet:
         typer.echo(summary(broken, output or []))
 
@@ -170,7 +168,7 @@ def pairs(values: list[float]) -> list[tuple[float, float]]:
 
     if len(values) % 2:
         raise InputError(
-            f"--seed-at takes two numbers, X and Y, for each place, not {len(values)} in all; give 0.5 0.5, say."
+            f"--seed-at takes two numbers X Y for each place, not {len(values)} in all; give 0.5 0.5, say."
         )
     for value in values:
         if not 0 <= value <= 1:

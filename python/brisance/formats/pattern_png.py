@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from brisance.errors import ArgumentError
 from brisance.formats.atomic import replacing
 from brisance.formats.pattern_picture import (
     BORDER,
@@ -39,12 +40,14 @@ def write_pattern_png(fracture: Fracture, path: Path | str, *, size: tuple[int, 
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
 
+    if size is not None and not all(1 <= side <= LARGEST for side in size):
+        raise ArgumentError("size", f"must be from 1 to {LARGEST} pixels a side, not {size[0]} by {size[1]}.")
     low, high = fracture.bounds
     longer = float((high - low).max())
     page_low, page_high = low - 0.03 * longer, high + 0.03 * longer
     page_low[1] -= 0.085 * longer
     page = page_high - page_low
-    width, height = size or tuple(max(1, round(side)) for side in LONGER_SIDE * page / longer)
+    width, height = size or tuple(np.maximum(1, np.rint(LONGER_SIDE * page / longer)).astype(int).tolist())
     pixels_per_m = min(width / page[0], height / page[1])
     # What is left over goes to both sides alike.
     middle, half = 0.5 * (page_low + page_high), 0.5 * np.array([width, height]) / pixels_per_m

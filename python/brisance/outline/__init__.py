@@ -1,4 +1,4 @@
-"""The outline of a pane, read from a file: rings of points [m], the pane's first and then those of its holes."""
+"""The outline of a pane, read from a file: rings of points [m], the pane's first and then its holes'."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from brisance.errors import InputError
 Array = NDArray[np.float64]
 
 SUFFIXES = (".csv", ".json", ".svg")
-"""Files that can be read: points x,y with an empty line between rings; a list of rings of points; a drawing."""
+"""Files that can be read: points x,y with an empty line between rings; a list of rings; a drawing."""
 
 
 def read_outline(path: Path | str) -> list[Array]:
@@ -49,7 +49,7 @@ def read_outline(path: Path | str) -> list[Array]:
 
 
 def fit(rings: list[Array], *, width: float | None, height: float | None) -> list[Array]:
-    """Rings scaled to a width and height [m]; one alone keeps the proportions, none leaves them as they are."""
+    """Rings scaled to a width and height [m]; one alone keeps the proportions, none keeps the size."""
     points = np.concatenate(rings)
     low, size = points.min(axis=0), np.ptp(points, axis=0)
     if (size == 0).any() or (width is None and height is None):

@@ -81,7 +81,7 @@ def _arc_numbers(text: str) -> list[float]:
 def _stroke(
     kind: str, given: list[float], at: complex, base: complex, smooth: complex
 ) -> tuple[list[complex], complex]:
-    """The points of one stroke, without the one it starts at, and the handle that a smooth one goes on from."""
+    """The points of one stroke without its start, and the handle that a smooth one goes on from."""
     if kind == "H":
         return [complex(base.real + given[0], at.imag)], at
     if kind == "V":
