@@ -2,7 +2,8 @@
 //!
 //! Which vertex lies where on which trace is known from the growth, so nothing is intersected anew. Places nearer
 //! than the resolution become one vertex, dangling ends are cut off, edges are put in order round each vertex by
-//! exact predicates, and every face is walked with its area on the left.
+//! exact predicates, and every face is walked with its area on the left. Stems are cut off too: where a crack curls
+//! up and meets itself, the way there has the same face on both sides.
 
 use core::cmp::Ordering;
 
@@ -61,8 +62,13 @@ struct Loop {
 
 /// The faces that traces bound, in a fixed order.
 pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
-    let graph = Graph::new(traces, settings);
-    let (loops, loop_of) = graph.loops();
+    let mut graph = Graph::new(traces, settings);
+    let (mut loops, mut loop_of) = graph.loops();
+    let stems: Vec<bool> = loop_of.chunks_exact(2).map(|sides| sides[0] == sides[1]).collect();
+    if stems.iter().zip(loop_of.chunks_exact(2)).any(|(&stem, sides)| stem && sides[0] != NONE) {
+        graph.connect(&stems);
+        (loops, loop_of) = graph.loops();
+    }
     let holes = graph.holes(&loops, &loop_of);
     let mut faces = Faces::default();
     for (index, walk) in loops.iter().enumerate() {
@@ -106,10 +112,15 @@ impl Graph {
             next: Vec::new(),
         };
         let dangling = graph.dangling();
-        graph.list_leaving(&dangling);
-        graph.order_leaving();
-        graph.link();
+        graph.connect(&dangling);
         graph
+    }
+
+    /// Puts the edges in order round each vertex, without those that are gone.
+    fn connect(&mut self, gone: &[bool]) {
+        self.list_leaving(gone);
+        self.order_leaving();
+        self.link();
     }
 
     fn origin(&self, half: u32) -> u32 {
