@@ -151,6 +151,20 @@ def test_meshes_know_their_place_and_what_was_cut() -> None:
     assert cut == pytest.approx((perimeter - 2 * (0.8 + 0.5)) * 0.01, rel=1e-5)
 
 
+def test_finely_turning_cracks_make_solids() -> None:
+    # They curl up and meet themselves; what led there must not stay in a fragment as a double side.
+    pattern = br.Pattern(
+        literal=True,
+        shape="segment",
+        critical_length=0.05,
+        wiggle_probability=1.0,
+        wiggle_variance=70.0,
+        wiggle_spacing=0.004,
+    )
+    for seed in range(5):
+        check(br.fracture(pattern, seed=seed), 1.0)
+
+
 def test_the_unbroken_pane_is_one_piece_without_broken_faces() -> None:
     broken = br.fracture(br.Pattern(pieces=1), width=2, height=1)
     check(broken, 2.0)
