@@ -269,6 +269,36 @@ fn fragments_fill_the_pane_without_overlap_and_share_every_crack() {
     assert!(pieces as u64 > 20 * cases(), "the cases are too easy: {pieces} pieces");
 }
 
+/// Cracks that turn often and far curl up and meet themselves: then a stem leads to a loop, with one fragment on
+/// both sides.
+#[test]
+fn curled_cracks_leave_no_stems() {
+    let pane = Polygon::new(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from));
+    let mut holes = 0;
+    for seed in 0..20 {
+        let mut settings = Settings::literal(DVec2::splat(0.5), 0.05, 0.5);
+        settings.wiggle = Wiggle { probability: 1.0, variance: 1.2, spacing: 0.004 };
+        settings.seed = seed;
+        let pattern = Pattern::grow(&pane, &settings).unwrap();
+        let mut sum = 0.0;
+        for fragment in pattern.fragments() {
+            let mut corners: Vec<u32> = fragment.rings().flatten().copied().collect();
+            let count = corners.len();
+            corners.sort_unstable();
+            corners.dedup();
+            assert_eq!(corners.len(), count, "a fragment of seed {seed} comes by a vertex twice");
+            holes += fragment.rings().len() - 1;
+            let mut polygon = Polygon::default();
+            fragment.outline(&mut polygon);
+            sum += polygon.area();
+        }
+        // The area is exact but for rounding, whether or not a stem is counted.
+        assert!((sum - 1.0).abs() < 1e-9, "areas of seed {seed} sum to {sum}");
+        Pieces::of(&pattern, 0.01, 2500.0).unwrap();
+    }
+    assert!(holes > 0, "no crack curled up");
+}
+
 #[test]
 fn the_same_settings_give_the_same_bits() {
     for case in 0..20 {

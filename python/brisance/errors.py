@@ -18,3 +18,14 @@ class InputError(BrisanceError):
     """What the user gave is wrong. The sentence names file or key, what is wrong and what would be right."""
 
     exit_code = 2
+
+
+class ArgumentError(InputError):
+    """One argument is wrong. A command tells it by the option's name, a scene file by the key's."""
+
+    def __init__(self, argument: str, text: str) -> None:
+        super().__init__(f"{argument} {text}")
+        self.argument = argument
+        """Name of the argument in Python."""
+        self.text = text
+        """The rest of the sentence."""

@@ -6,12 +6,14 @@ import os
 import re
 from pathlib import Path
 
-from brisance.errors import InputError
+from brisance.errors import ArgumentError, InputError
 
 BYTES_A_POSE = 28
 """A position and a quaternion in single precision."""
 BYTES_A_PIECE = 4096
 """Names, panels, loads and facts of one piece, rounded up."""
+BYTES_A_TURN = 1024
+"""The stretch of crack after a turn, and the corners that it gives the pieces on either side."""
 
 
 def recording_bytes(frames: int, pieces: int) -> int:
@@ -37,13 +39,17 @@ def check_fits(frames: int, pieces: int) -> None:
         )
 
 
-def check_pieces_fit(pieces: int) -> None:
-    """Raise :class:`InputError`, saying how much is needed, unless so many fragments fit in memory."""
-    needed, available = pieces * BYTES_A_PIECE, available_bytes()
+def check_pieces_fit(pieces: float, *, vertices: float = 0, asked_by: str) -> None:
+    """Raise :class:`ArgumentError`, saying how much is needed, unless a broken pane fits in memory.
+
+    ``vertices`` are those that random turns of the cracks add; ``asked_by`` is the argument to blame.
+    """
+    needed, available = pieces * BYTES_A_PIECE + vertices * BYTES_A_TURN, available_bytes()
     if available is not None and needed > available:
-        raise InputError(
-            f"{pieces:,} fragments need {_amount(needed)} of memory and {_amount(available)} are available; "
-            "ask for fewer pieces or a longer critical length."
+        raise ArgumentError(
+            asked_by,
+            f"asks for about {pieces:,.0f} fragments with {vertices:,.0f} turns in their cracks, which need "
+            f"{_amount(needed)} of memory, and {_amount(available)} are available; ask for fewer.",
         )
 
 
@@ -70,7 +76,7 @@ def _group_bytes() -> int | None:
         return None
 
 
-def _amount(size: int) -> str:
+def _amount(size: float) -> str:
     for unit, scale in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6)):
         if size >= scale:
             return f"{size / scale:,.1f} {unit}"

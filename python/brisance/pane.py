@@ -3,6 +3,7 @@
 >>> import brisance as br
 >>> broken = br.fracture(br.Pattern(pieces=300), width=1.0, height=1.0, seed=4)
 >>> len(broken.polygons)
+>>> broken.write("pane.usdc")
 """
 
 from __future__ import annotations
@@ -11,14 +12,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from brisance import _engine
-from brisance.errors import InputError
+from brisance.errors import ArgumentError, InputError
 from brisance.memory import check_pieces_fit
 from brisance.model.pattern import Pattern
+from brisance.piece import PieceMesh
+from brisance.prisms import piece_meshes
 
 Array = NDArray[np.float64]
 
@@ -28,6 +32,12 @@ DICE = 0.008
 """Size of the dice of tempered glass when nothing is said of them [m]: EN 12150-1 asks for at least 40 on a
 square of 50 mm, which are 7.9 mm wide."""
 MATERIAL = "glass"
+CRACK_LENGTH = 2.7
+"""Length of all cracks over the root of the pane's area times its pieces, at most about."""
+NEAR = 1e-6
+"""A start this near to the border, as a share of the pane's longer side, is on it."""
+SUFFIXES = (".svg", ".png", ".json", ".usdc", ".usda", ".usd", ".usdz")
+"""Endings of the files that a broken pane can be written to."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +87,27 @@ class Fracture:
         assert density is not None
         return self.engine.pieces(thickness=self.thickness, density=density)
 
+    @cached_property
+    def meshes(self) -> list[PieceMesh]:
+        """Of every fragment its closed mesh about its centre of mass [m], the pane facing +z.
+
+        Texture coordinates are the place in the pane in metres; the group ``"broken"`` holds the faces that
+        cracks cut, not those of the pane's own border.
+        """
+        return piece_meshes(self.engine, self.solids)
+
+    @property
+    def bounds(self) -> tuple[Array, Array]:
+        """Lower left and upper right corner of the pane [m]."""
+        return self.outline[0].min(axis=0), self.outline[0].max(axis=0)
+
+    @property
+    def positions(self) -> Array:
+        """(fragments, 3) centres of mass [m], of a pane about the origin in the plane z = 0."""
+        low, high = self.bounds
+        flat = self.solids.centroid_m - 0.5 * (low + high)
+        return np.column_stack([flat, np.zeros(len(flat))])
+
     def time(self, growth: ArrayLike) -> Array:
         """When the first cracks had grown so far [s]: thesis (5.6), integrated."""
         speed = _engine.material(MATERIAL)["crack_speed_m_s"]
@@ -84,6 +115,44 @@ class Fracture:
         # Dice are cut by a front at full speed; their critical length only says how large they are.
         critical = 0.0 if self.pattern.glass == "tempered" else self.critical_length
         return _engine.crack_time(growth, terminal_speed=speed, critical_length=critical)
+
+    def write(self, path: Path | str, *, size: tuple[int, int] | None = None) -> None:
+        """Write the broken pane; the suffix says what: .svg or .png the cracks coloured by when they were
+        cut, .json polygons and cracks, .usdc, .usda, .usd or .usdz the solid pieces.
+
+        ``size`` is the width and height of a .png [pixels]; left out, as large as suits the pane. The same
+        pane gives the same bytes, but for the time that a .json says it took.
+        """
+        suffix = check_output(path).suffix.lower()
+        if suffix == ".svg":
+            from brisance.formats.pattern_svg import write_pattern_svg
+
+            write_pattern_svg(self, path)
+        elif suffix == ".png":
+            from brisance.formats.pattern_png import write_pattern_png
+
+            write_pattern_png(self, path, size=size)
+        elif suffix == ".json":
+            from brisance.formats.pattern_json import write_pattern_json
+
+            write_pattern_json(self, path)
+        else:
+            from brisance.formats.usd.pattern import write_pattern_usd
+
+            write_pattern_usd(self, path)
+
+
+def check_output(path: Path | str) -> Path:
+    """Return the path, or raise :class:`InputError` unless a broken pane can be written there."""
+    from brisance.formats.atomic import check_writable
+
+    path = check_writable(path)
+    if path.suffix.lower() not in SUFFIXES:
+        raise InputError(
+            f"{path} has no suffix that names a format; end it in .svg or .png (cracks), .json (polygons and "
+            "cracks) or .usdc, .usda, .usd or .usdz (solid pieces)."
+        )
+    return path
 
 
 def fracture(
@@ -103,22 +172,25 @@ def fracture(
     pattern = pattern or Pattern()
     rings = _rectangle(width, height) if outline is None else _rings(outline)
     area = sum(_area(ring) for ring in rings)
-    for name, value in (("thickness", thickness), ("area of the pane", area)):
-        if not (math.isfinite(value) and value > 0):
-            raise InputError(f"{name} must be a finite number above 0, not {value:g}.")
+    _check_positive("thickness", thickness)
+    if not (math.isfinite(area) and area > 0):
+        raise ArgumentError("outline", f"must enclose a finite area above 0, not {area:g} m².")
+    if not 0 <= seed < 2**63:
+        raise ArgumentError("seed", f"must be a whole number from 0 to 2⁶³ − 1, not {seed}.")
     pieces = pattern.pieces
     if pieces is None and pattern.critical_length is None:
         pieces = max(1, round(area / DICE**2)) if pattern.glass == "tempered" else DEFAULT_PIECES
-    check_pieces_fit(pieces or _expected_pieces(pattern, rings, area))
     low, high = rings[0].min(axis=0), rings[0].max(axis=0)
-    shares = np.array(pattern.seeds, dtype=float).reshape(-1, 2)
+    seeds = low + np.array(pattern.seeds, dtype=float).reshape(-1, 2) * (high - low)
+    _check_size(pattern, area, longer_side=float((high - low).max()), pieces=pieces)
+    _check_seeds(pattern, rings, seeds)
     try:
         engine = _engine.fracture(
             outline=rings,
             glass=pattern.glass,
             pieces=pieces,
             critical_length=pattern.critical_length,
-            seeds=low + shares * (high - low),
+            seeds=seeds,
             starts=pattern.starts,
             shape=pattern.shape,
             literal=pattern.literal,
@@ -132,15 +204,17 @@ def fracture(
             toward=None if pattern.toward is None else math.radians(pattern.toward),
             seed=seed,
         )
-    except ValueError as error:
-        raise InputError(f"{error}.") from error
+    except InputError as error:
+        sentence = str(error)
+        if sentence.startswith("the outline "):
+            raise ArgumentError("outline", f"{sentence.removeprefix('the outline ')}.") from error
+        raise InputError(f"{sentence}.") from error
     return Fracture(pattern, rings, thickness, seed, engine)
 
 
 def _rectangle(width: float, height: float) -> list[Array]:
-    for name, value in (("width", width), ("height", height)):
-        if not (math.isfinite(value) and value > 0):
-            raise InputError(f"{name} must be a finite number above 0, not {value:g}.")
+    _check_positive("width", width)
+    _check_positive("height", height)
     return [np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])]
 
 
@@ -150,13 +224,13 @@ def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
     for index, ring in enumerate(outline):
         points = np.asarray(ring, dtype=float)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:
-            raise InputError("outline must be rings of three or more points x, y.")
+            raise ArgumentError("outline", "must be rings of three or more points x, y.")
         if np.array_equal(points[0], points[-1]):
             points = points[:-1]
         turned = (_area(points) > 0) == (index == 0)
         rings.append(np.ascontiguousarray(points if turned else points[::-1]))
     if not rings:
-        raise InputError("outline must have at least one ring of points.")
+        raise ArgumentError("outline", "must have at least one ring of points.")
     return rings
 
 
@@ -165,9 +239,46 @@ def _area(ring: Array) -> float:
     return float(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
-def _expected_pieces(pattern: Pattern, rings: list[Array], area: float) -> int:
-    """About how many pieces a critical length gives, to see beforehand whether they fit in memory."""
-    assert pattern.critical_length is not None
-    if pattern.glass == "tempered" and not pattern.literal:
-        return int(min(area / pattern.critical_length**2, 1e18))
-    return int(min(max(1, len(pattern.seeds)) * math.sqrt(area) / pattern.critical_length, 1e18))
+def _check_positive(argument: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise ArgumentError(argument, f"must be a finite number above 0, not {value:g}.")
+
+
+def _check_size(pattern: Pattern, area: float, *, longer_side: float, pieces: int | None) -> None:
+    """Refuse cracks longer than the pane, and more pieces or turns than memory holds."""
+    length = pattern.critical_length
+    if length is not None and length > longer_side:
+        raise ArgumentError(
+            "critical_length",
+            f"must be at most the longer side of the pane, {longer_side:g} m, not {length:g}.",
+        )
+    count, asked_by = float(pieces or 0), "pieces"
+    if length is not None:
+        count, asked_by = max(1, len(pattern.seeds)) * math.sqrt(area) / length, "critical_length"
+        if pattern.glass == "tempered" and not pattern.literal:
+            count = area / length**2
+    check_pieces_fit(count, asked_by=asked_by)
+    if pattern.wiggle_spacing is not None and pattern.glass != "tempered":
+        # Cracks are about as long as the sides of so many squares, and a third more.
+        turns = CRACK_LENGTH * math.sqrt(area * count) / pattern.wiggle_spacing
+        check_pieces_fit(count, vertices=turns, asked_by="wiggle_spacing")
+
+
+def _check_seeds(pattern: Pattern, rings: list[Array], seeds: Array) -> None:
+    """Refuse a start on the border, or in a notch or hole: an odd number of sides must lie to its right."""
+    begin = np.concatenate(rings)
+    side = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - begin
+    near = NEAR * float(np.ptp(begin, axis=0).max())
+    for share, seed in zip(pattern.seeds, seeds, strict=True):
+        x, y = (seed - begin).T
+        straddles = (y < 0) != (y < side[:, 1])
+        right = side[:, 0] * y / np.where(straddles, side[:, 1], 1.0) > x
+        length = np.maximum((side**2).sum(axis=1), np.finfo(float).tiny)
+        foot = np.clip((x * side[:, 0] + y * side[:, 1]) / length, 0.0, 1.0)
+        gap = np.hypot(x - foot * side[:, 0], y - foot * side[:, 1]).min()
+        if (straddles & right).sum() % 2 == 0 or gap < near:
+            raise ArgumentError(
+                "seeds",
+                f"{share[0]:g} {share[1]:g} lies outside the pane or on its border; give shares of width and "
+                "height that lie inside it.",
+            )

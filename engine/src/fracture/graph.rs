@@ -2,7 +2,8 @@
 //!
 //! Which vertex lies where on which trace is known from the growth, so nothing is intersected anew. Places nearer
 //! than the resolution become one vertex, dangling ends are cut off, edges are put in order round each vertex by
-//! exact predicates, and every face is walked with its area on the left.
+//! exact predicates, and every face is walked with its area on the left. Stems are cut off too: where a crack curls
+//! up and meets itself, the way there has the same face on both sides.
 
 use core::cmp::Ordering;
 
@@ -115,9 +116,7 @@ impl Graph {
     fn part(&mut self) -> (Vec<Loop>, Vec<u32>) {
         let mut gone = self.dangling();
         loop {
-            self.list_leaving(&gone);
-            self.order_leaving();
-            self.link();
+            self.connect(&gone);
             let (loops, loop_of) = self.loops();
             let bridges = (0..self.edges.len()).filter(|&e| !gone[e] && loop_of[2 * e] == loop_of[2 * e + 1]);
             let bridges: Vec<usize> = bridges.collect();
@@ -179,6 +178,13 @@ impl Graph {
             let edge = &mut self.edges[half as usize / 2];
             *(if half.is_multiple_of(2) { &mut edge.from } else { &mut edge.to }) = own;
         }
+    }
+
+    /// Puts the edges in order round each vertex, without those that are gone.
+    fn connect(&mut self, gone: &[bool]) {
+        self.list_leaving(gone);
+        self.order_leaving();
+        self.link();
     }
 
     fn origin(&self, half: u32) -> u32 {

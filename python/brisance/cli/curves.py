@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from brisance.cli.flags import checked
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from brisance.model import Model
-
-Part = TypeVar("Part", bound="Model")
 
 KEYS = (
     "distance_m",
@@ -102,6 +100,7 @@ def curves(
 
     charge = checked(
         Charge,
+        whole="the charge",
         mass=mass,
         position=(0, 0, 0),
         explosive=explosive,
@@ -134,21 +133,6 @@ def curves(
         typer.echo(note, err=True)
     if plot is not None:
         typer.echo(f"plot: {plot}", err=bool(distance))
-
-
-def checked(model: type[Part], **values: Any) -> Part:
-    """A part of a scene made of flags; InputError names the flag that is wrong."""
-    from pydantic import ValidationError
-
-    from brisance.errors import InputError
-    from brisance.sentences import first_problem
-
-    try:
-        return model.model_validate(values)
-    except ValidationError as error:
-        problem = first_problem(error, model)
-        flag = f"--{str(problem.key[0]).replace('_', '-')}" if problem.key else "the charge"
-        raise InputError(f"{flag} {problem.text}.") from None
 
 
 def chosen_distances(given: list[float] | None, tnt_mass: float, *, fine: bool) -> NDArray[np.float64]:

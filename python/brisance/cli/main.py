@@ -16,20 +16,21 @@ import typer
 
 from brisance.cli.curves import curves
 from brisance.cli.figure import figure
+from brisance.cli.fracture import fracture
 from brisance.cli.inspect import inspect
 from brisance.cli.render import render
 from brisance.cli.run import run
 from brisance.cli.theory import app as theory
 from brisance.errors import BrisanceError
 
-SPREAD = ("--distance",)
+SPREAD = ("--distance", "--seed-at")
 """Options that take every number that follows."""
 
 # Typer keeps the base of its usage errors private; BadParameter derives from it directly.
 _UsageError = cast(type[Exception], typer.BadParameter.__mro__[1])
 
 app = typer.Typer(name="brisance", add_completion=False, rich_markup_mode=None)
-for command in (run, inspect, curves, render, figure):
+for command in (run, inspect, curves, fracture, render, figure):
     app.command()(command)
 app.add_typer(theory)
 

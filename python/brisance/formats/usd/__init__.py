@@ -17,20 +17,16 @@ object of a single piece is a Mesh in both.
 
 from __future__ import annotations
 
-import os
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from pxr import Sdf, Tf, Vt
+from pxr import Sdf, Vt
 
 from brisance.errors import InputError
-from brisance.formats.atomic import check_writable, replacing
 from brisance.formats.usd import instancer_layout, physics, prims_layout
 from brisance.formats.usd.authoring import attribute
+from brisance.formats.usd.layer import check_usd_path, start_layer, write_layer
 from brisance.formats.usd.materials import author_materials
 from brisance.formats.usd.show import Show
 from brisance.formats.usd.surroundings import author_charges, author_ground
@@ -61,12 +57,6 @@ Where pieces share a mesh (bricks), the instancer writes 10 000 pieces in 0.2 s 
 object.
 """
 
-SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-"""Endings of USD file names: ``.usda`` is text, ``.usd`` and ``.usdc`` are binary, ``.usdz`` is a package."""
-
-_PACKAGE_TIME = time.mktime((1980, 1, 2, 0, 0, 0, 0, 0, -1))
-"""Packages state when their file was made, in local time; a fixed moment keeps their bytes the same [s]."""
-
 _T = Sdf.ValueTypeNames
 
 
@@ -88,18 +78,8 @@ def write_usd(
     :raises InputError: the name ends in something else than :data:`SUFFIXES`, the layout is unknown, or
         nothing can be written there.
     """
-    path = Path(path)
-    if path.suffix.lower() not in SUFFIXES:
-        raise InputError(
-            f"{path} does not name a USD file; let it end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}."
-        )
-    check_writable(path)
-    layer = build_layer(result, layout=layout, progress=progress)
-    with replacing(path) as temporary:
-        if path.suffix.lower() == ".usdz":
-            _package(layer, temporary, shown=path)
-        else:
-            _export(layer, temporary, shown=path)
+    check_usd_path(path)
+    write_layer(build_layer(result, layout=layout, progress=progress), path)
 
 
 def build_layer(
@@ -110,9 +90,13 @@ def build_layer(
     show = Show(result, progress)
     layer = Sdf.Layer.CreateAnonymous(".usdc")
     with Sdf.ChangeBlock():
-        _describe(layer, result)
-        world = Sdf.PrimSpec(layer, "World", Sdf.SpecifierDef, "Xform")
-        world.kind = "assembly"
+        world = start_layer(
+            layer,
+            scene=result.scene.name,
+            seed=result.scene.seed,
+            frames=len(result.times),
+            frame_rate=result.frame_rate,
+        )
         _author_facts(world, result, chosen)
         looks = list(dict.fromkeys(source.material for source in result.sources))
         if result.scene.ground is not None:
@@ -137,62 +121,11 @@ def _choose(layout: str, *, pieces: int) -> str:
     return layout
 
 
-def _describe(layer: Sdf.Layer, result: Result) -> None:
-    root = layer.pseudoRoot
-    root.SetInfo("upAxis", "Y")
-    root.SetInfo("metersPerUnit", 1.0)
-    root.SetInfo("kilogramsPerUnit", 1.0)
-    layer.defaultPrim = "World"
-    layer.timeCodesPerSecond = layer.framesPerSecond = result.frame_rate
-    layer.startTimeCode, layer.endTimeCode = 0.0, float(len(result.times) - 1)
-    layer.comment = f"Brisance {_version()}: {result.scene.name}, seed {result.scene.seed}"
-    layer.customLayerData = {
-        "brisance": {"version": _version(), "scene": result.scene.name, "seed": str(result.scene.seed)}
-    }
-
-
 def _author_facts(world: Sdf.PrimSpec, result: Result, layout: str) -> None:
     scene = result.scene
-    attribute(world, "brisance:version", _T.String, _version(), uniform=True)
-    attribute(world, "brisance:scene", _T.String, scene.name, uniform=True)
-    attribute(world, "brisance:seed", _T.Int64, scene.seed, uniform=True)
     attribute(world, "brisance:layout", _T.Token, layout, uniform=True)
     attribute(world, "brisance:frame_rate", _T.Double, result.frame_rate, uniform=True)
     attribute(world, "brisance:step_s", _T.Double, result.step_s, uniform=True)
     attribute(world, "brisance:air_pressure_pa", _T.Double, scene.air.pressure, uniform=True)
     attribute(world, "brisance:air_temperature_k", _T.Double, scene.air.temperature, uniform=True)
     attribute(world, "brisance:warnings", _T.StringArray, Vt.StringArray(list(result.warnings)), uniform=True)
-
-
-def _version() -> str:
-    import brisance
-
-    return str(brisance.__version__)
-
-
-def _export(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
-    """Write a layer to ``path``; an error names the file the user asked for, ``shown``."""
-    with _refusals(shown):
-        if not layer.Export(str(path)):
-            raise InputError(f"{shown} could not be written; check the free space on its disk.")
-
-
-def _package(layer: Sdf.Layer, path: Path, *, shown: Path) -> None:
-    from pxr import UsdUtils
-
-    work = TemporaryDirectory()
-    with work as folder, if_stopped(work.cleanup):
-        inner = Path(folder) / f"{Tf.MakeValidIdentifier(shown.stem)}.usdc"
-        _export(layer, inner, shown=shown)
-        os.utime(inner, (_PACKAGE_TIME, _PACKAGE_TIME))
-        with _refusals(shown):
-            if not UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(inner)), str(path)):
-                raise InputError(f"{shown} could not be written; check the free space on its disk.")
-
-
-@contextmanager
-def _refusals(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except Tf.ErrorException as error:
-        raise InputError(f"{path} could not be written; check the free space on its disk.") from error

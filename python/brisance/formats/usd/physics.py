@@ -27,11 +27,18 @@ def author_scene(world: Sdf.PrimSpec) -> None:
 
 
 def author_body(
-    prim: Sdf.PrimSpec, *, mass: float, velocity: Gf.Vec3f | None = None, spin: Gf.Vec3f | None = None
+    prim: Sdf.PrimSpec,
+    *,
+    mass: float,
+    velocity: Gf.Vec3f | None = None,
+    spin: Gf.Vec3f | None = None,
+    inertia: tuple[Gf.Vec3f, Gf.Quatf] | None = None,
 ) -> None:
     """Make a Mesh a kinematic rigid body with a convex collider, and apply the schema that binds materials.
 
     ``velocity`` [m/s] and ``spin`` [degrees/s], in the parent's axes, are those at the last frame.
+    ``inertia`` holds the principal moments [kg m²] and the rotation from their axes to the body's; left out,
+    a simulator takes the collider's.
     """
     apply(
         prim,
@@ -45,6 +52,9 @@ def author_body(
     attribute(prim, "physics:mass", _T.Float, mass)
     attribute(prim, "physics:centerOfMass", _T.Point3f, Gf.Vec3f(0))
     attribute(prim, "physics:approximation", _T.Token, "convexHull", uniform=True)
+    if inertia is not None:
+        attribute(prim, "physics:diagonalInertia", _T.Float3, inertia[0])
+        attribute(prim, "physics:principalAxes", _T.Quatf, inertia[1])
     if velocity is not None:
         attribute(prim, "physics:velocity", _T.Vector3f, velocity)
     if spin is not None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, Vt
 
 from brisance.formats.usd.authoring import Names, attribute, define, keep_name, samples
-from brisance.formats.usd.geometry import author_shape
+from brisance.formats.usd.geometry import Geometry, author_shape
 from brisance.formats.usd.materials import bind
 from brisance.formats.usd.physics import author_body
 from brisance.formats.usd.show import Show, quaternion, quaternions, tints
@@ -36,18 +36,22 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
             velocity=Gf.Vec3f(*show.velocities[body].tolist()),
             spin=Gf.Vec3f(*show.spins[body].tolist()),
         )
-        author_shape(piece, show.geometries[show.result.meshes[body]], material=source.material)
-        attribute(
+        author_looks(
             piece,
-            "primvars:displayColor",
-            _T.Color3fArray,
-            colours[tint[body - source.start]],
-            interpolation="constant",
+            show.geometries[show.result.meshes[body]],
+            material=source.material,
+            colour=colours[tint[body - source.start]],
         )
-        bind(piece, source.material)
         _author_motion(piece, show, body)
         show.facts.author(piece, body)
         show.advance(1)
+
+
+def author_looks(piece: Sdf.PrimSpec, geometry: Geometry, *, material: str, colour: Vt.Vec3fArray) -> None:
+    """Author the shape of a piece, its material and its tint."""
+    author_shape(piece, geometry, material=material)
+    attribute(piece, "primvars:displayColor", _T.Color3fArray, colour, interpolation="constant")
+    bind(piece, material)
 
 
 def _author_motion(piece: Sdf.PrimSpec, show: Show, body: int) -> None:
