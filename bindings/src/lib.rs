@@ -31,7 +31,8 @@ mod _engine {
     use super::fracture::{FracturePattern, Pieces, crack_time, fracture};
     #[pymodule_export]
     use super::material::{
-        critical_length, energy_release, material_facts, materials, mean_fragment_area, mean_fragment_velocity,
+        critical_length, energy_release, material_facts, materials, mean_fragment_area,
+        mean_fragment_velocity,
     };
     #[pymodule_export]
     use super::recording::Recording;
