@@ -24,7 +24,7 @@ class Pattern(Model):
     pieces: Count | None = Field(
         default=None,
         description="About how many fragments, within 10 %, 1 or more; in place of critical_length. Left out "
-        "together with it: 500, or dice of 8 mm for tempered glass.",
+        "together with it: 500, or dice of 7 mm for tempered glass.",
     )
     critical_length: Positive | None = Field(
         default=None,
