@@ -138,9 +138,9 @@ KNOBS: Sequence[Knob] = (
     (
         ("shape", "literal"),
         [
-            {"shape": "segment", "rings": 0},
-            {"shape": "cross", "rings": 0},
-            {"shape": "star", "rings": 0},
+            {"shape": "segment"},
+            {"shape": "cross"},
+            {"shape": "star"},
             {"shape": "segment", "literal": True},
         ],
     ),
@@ -149,8 +149,8 @@ KNOBS: Sequence[Knob] = (
         [
             {"seeds": [(0.15, 0.2)]},
             {"seeds": [(0.25, 0.3), (0.7, 0.7)]},
-            {"toward": 60, "rings": 0},
-            {"reach": 0.3, "rings": 0},
+            {"toward": 60},
+            {"reach": 0.3},
         ],
     ),
 )

@@ -247,6 +247,18 @@ fn creep_cracks_that_close_nothing_leave_the_pane_whole() {
 }
 
 #[test]
+fn rings_do_not_run_on_where_there_is_no_wedge() {
+    // Cracks grow 0.3 m from the middle, and a ring only goes from one to the next.
+    for seed in 1..20 {
+        let recipe = Recipe { reach: Some(0.3), rings: 1.0, seed, ..Recipe::default() };
+        let pattern = recipe.grow(&square()).unwrap().pattern;
+        let far = pattern.cracks.iter().flat_map(|c| c.ends).map(|p| p.distance(DVec2::splat(0.5)));
+        let farthest = far.fold(0.0, f64::max);
+        assert!(farthest > 0.28 && farthest < 0.3 + 1e-9, "{seed}: {farthest}");
+    }
+}
+
+#[test]
 fn a_hole_that_no_crack_reaches_stays_a_hole_of_its_fragment() {
     let mut pane = square();
     pane.push_ring([(0.7, 0.7), (0.7, 0.8), (0.8, 0.8), (0.8, 0.7)].map(DVec2::from));

@@ -4,7 +4,8 @@
 //!
 //! - **annealed**: the crack tree of the thesis. Cracks start where the pane fails, fork as energy allows, and run
 //!   to the edge. Long shards that bend outward, and the rings that cross them, are a look: in a pane they come from
-//!   bending, which a plane model does not see.
+//!   bending, which a plane model does not see. What breaks finely also breaks from flaws all over it, each once
+//!   the wave from the first crack has come; their number and arms are a look.
 //! - **tempered**: a look. The stress locked into the pane breaks all of it into dice about as large as it is thick
 //!   once a crack gets in; the dice come from half as many small three-armed cracks, and a front that runs out from
 //!   the seed at the speed of the cracks says when each is cut.
