@@ -102,7 +102,7 @@ impl Run {
             && along <= self.to - self.from + slack
             && across >= -slack
             && across <= other.to - other.from + slack;
-        inside.then(|| Meeting { first: self.from + along, second: other.from + across, head_on: false })
+        inside.then_some(Meeting { first: self.from + along, second: other.from + across, head_on: false })
     }
 
     /// The same for two runs on one line: a tip that comes to where the other one started, or both head-on.
