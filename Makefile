@@ -39,8 +39,8 @@ test: setup
 lint: setup
 	cargo fmt --all --check
 	cargo clippy --release --all-targets --quiet -- -D warnings
-	$(BIN)/ruff check python benches
-	$(BIN)/ruff format --check python benches
+	$(BIN)/ruff check python benches docs
+	$(BIN)/ruff format --check python benches docs
 	$(BIN)/mypy
 	cd python && ../$(BIN)/python -m mypy.stubtest brisance._engine
 

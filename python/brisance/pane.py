@@ -28,9 +28,9 @@ Array = NDArray[np.float64]
 
 DEFAULT_PIECES = 500
 """Pieces of annealed and laminated glass when nothing is said of them."""
-DICE = 0.008
-"""Size of the dice of tempered glass when nothing is said of them [m]: EN 12150-1 asks for at least 40 on a
-square of 50 mm, which are 7.9 mm wide."""
+DICE = 0.007
+"""Size of the dice of tempered glass when nothing is said of them [m]: EN 12150-1 asks for at least 40
+on the coarsest square of 50 mm, and dice are not all alike (docs/fracture.md)."""
 MATERIAL = "glass"
 CRACK_LENGTH = 2.7
 """Length of all cracks over the root of the pane's area times its pieces, at most about."""

@@ -4,7 +4,8 @@
 //!
 //! - **annealed**: the crack tree of the thesis. Cracks start where the pane fails, fork as energy allows, and run
 //!   to the edge. Long shards that bend outward, and the rings that cross them, are a look: in a pane they come from
-//!   bending, which a plane model does not see.
+//!   bending, which a plane model does not see. What breaks finely also breaks from flaws all over it, each once
+//!   the wave from the first crack has come; their number and arms are a look.
 //! - **tempered**: a look. The stress locked into the pane breaks all of it into dice about as large as it is thick
 //!   once a crack gets in; the dice come from half as many small three-armed cracks, and a front that runs out from
 //!   the seed at the speed of the cracks says when each is cut.
@@ -135,13 +136,22 @@ type Observer<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 
 /// More pieces than this from one nucleus become needles: then cracks start at flaws all over the pane as well.
 const MOST_PER_NUCLEUS: usize = 1500;
-/// Pieces from each flaw then.
-const PER_FLAW: usize = 120;
+/// Pieces from each flaw then. With many more of them, flaws show as a field of flowers.
+const PER_FLAW: usize = 15;
+/// Fewest and most arms of a crack that starts at a flaw.
+const FLAW_ARMS: (usize, usize) = (2, 5);
+/// How far the first cracks have grown, over the distance to a flaw, when their stress wave reaches it: waves in
+/// glass are some three times as fast as cracks.
+const WAVE: f64 = 0.3;
+/// How long a flaw may hold out from then on, in distances between flaws: the first to give way leave the larger
+/// pieces.
+const LONGEST_WAIT: f64 = 3.0;
 /// A count of pieces this near to what was asked for is good enough.
 const NEAR_ENOUGH: f64 = 0.05;
 /// Patterns grown at most to find a count.
 const ATTEMPTS: usize = 14;
 const STAR_ARMS: usize = 9;
+const DICE_ARMS: usize = 3;
 
 impl Recipe {
     /// Grows the pattern. With [`Fineness::Pieces`] the critical length is searched for: the number of pieces rises
@@ -192,7 +202,7 @@ impl Recipe {
             self.starts_for(pieces) as f64
         };
         let nuclei = self.nuclei(outline, &seeds, wanted, dice);
-        let grain = grain(outline, nuclei.len(), critical_length, dice);
+        let grain = if dice { critical_length } else { grain(outline, &nuclei, critical_length) };
         let spacing = self.wiggle_spacing.unwrap_or(grain / 3.0);
         let wiggle = Wiggle {
             probability: if dice { 0.0 } else { self.wiggle_probability },
@@ -300,19 +310,35 @@ impl Recipe {
 
     /// Seeds, and with flaws spread over the pane some `wanted` nuclei in all.
     fn nuclei(&self, outline: &Polygon, seeds: &[DVec2], wanted: f64, dice: bool) -> Vec<Nucleus> {
-        let (arms, shape) = if dice { (3, Shape::Star) } else { (STAR_ARMS, self.shape) };
+        let (arms, shape) = if dice { (DICE_ARMS, Shape::Star) } else { (STAR_ARMS, self.shape) };
         let mut nuclei: Vec<Nucleus> =
             seeds.iter().enumerate().map(|(i, &at)| self.nucleus(at, shape, arms, i as u64)).collect();
         if self.literal || wanted <= seeds.len() as f64 {
             return nuclei;
         }
         let near = 1e-6 * longer_side(outline);
+        let apart = libm::sqrt(outline.area() / wanted);
         for (index, at) in spread(outline, wanted, self.seed).into_iter().enumerate() {
-            if seeds.iter().all(|seed| seed.distance(at) > near) {
-                nuclei.push(self.nucleus(at, shape, arms, (seeds.len() + index) as u64));
+            let away = seeds.iter().map(|seed| seed.distance(at)).fold(f64::INFINITY, f64::min);
+            let index = (seeds.len() + index) as u64;
+            if away > near {
+                nuclei.push(if dice {
+                    self.nucleus(at, Shape::Star, DICE_ARMS, index)
+                } else {
+                    self.flaw(at, index, away, apart)
+                });
             }
         }
         nuclei
+    }
+
+    /// A crack that starts at a flaw `away` from the nearest seed, flaws being some way `apart` [m].
+    fn flaw(&self, at: DVec2, index: u64, away: f64, apart: f64) -> Nucleus {
+        let (fewest, most) = FLAW_ARMS;
+        let draw = |key: u64| random::unit(self.seed ^ FLAWS, index, FLAW_KEYS + key);
+        let arms = fewest + (draw(0) * (most - fewest + 1) as f64) as usize;
+        let start = WAVE * away + LONGEST_WAIT * apart * draw(1);
+        Nucleus { start, ..self.nucleus(at, Shape::Star, arms, index) }
     }
 
     fn nucleus(&self, at: DVec2, shape: Shape, arms: usize, index: u64) -> Nucleus {
@@ -342,6 +368,8 @@ impl Recipe {
 /// Streams of draws for starts, apart from those of the cracks.
 const STARTS: u64 = 0x5_7A27;
 const FLAWS: u64 = 0xF_1A35;
+/// First of the draws that say how a flaw gives way; those before it say where it lies.
+const FLAW_KEYS: u64 = 2;
 
 /// Some `count` points inside an outline, evenly spread and yet in no order: one at random in each cell of a grid.
 fn spread(outline: &Polygon, count: f64, seed: u64) -> Vec<DVec2> {
@@ -364,14 +392,12 @@ fn spread(outline: &Polygon, count: f64, seed: u64) -> Vec<DVec2> {
     points
 }
 
-/// Size of the mean piece [m].
-fn grain(outline: &Polygon, nuclei: usize, critical_length: f64, dice: bool) -> f64 {
-    if dice {
-        return critical_length;
-    }
-    let count = nuclei as f64;
+/// Size of the mean piece [m], where each nucleus leaves about as many pieces as it has arms and forks.
+fn grain(outline: &Polygon, nuclei: &[Nucleus], critical_length: f64) -> f64 {
+    let count = nuclei.len() as f64;
+    let arms = nuclei.iter().map(|nucleus| nucleus.arms.len()).sum::<usize>() as f64;
     let share = libm::sqrt(outline.area() / count);
-    libm::sqrt(outline.area() / (count * (STAR_ARMS as f64 + share / critical_length)))
+    libm::sqrt(outline.area() / (arms + count * share / critical_length))
 }
 
 fn bounds(outline: &Polygon) -> (DVec2, DVec2) {

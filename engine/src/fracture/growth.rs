@@ -519,16 +519,17 @@ impl<'a> Growth<'a> {
             rotated(heading, side * varied)
         });
         match settings.forking {
-            Forking::Driven { room } if room > 0.0 => {
-                branches.iter().all(|&branch| self.has_room(tip.run, branch, room, now)).then_some(branches)
-            }
+            Forking::Driven { room } if room > 0.0 => branches
+                .iter()
+                .all(|&branch| self.has_room(tip.run, now, branch, room, now))
+                .then_some(branches),
             _ => Some(branches),
         }
     }
 
-    /// Whether a branch could run for `room` [m] from where a run is now, past the traces that are there.
-    fn has_room(&self, number: u32, heading: DVec2, room: f64, now: f64) -> bool {
-        let from = self.done.runs[number as usize].point(now);
+    /// Whether a branch could run for `room` [m] from where a run was at `at`, past the traces that are there now.
+    fn has_room(&self, number: u32, at: f64, heading: DVec2, room: f64, now: f64) -> bool {
+        let from = self.done.runs[number as usize].point(at);
         let mut done = 0.0;
         while done < room {
             let length = self.grid.cell.min(room - done);
@@ -618,11 +619,17 @@ impl<'a> Growth<'a> {
             return;
         }
         let origin = run.point(sprout.at);
+        let tree = self.done.tips[run.trace as usize].tree;
+        // Where nothing stands across within the distance to the middle, there is no wedge to break.
+        let heading = direction(sprout.angle);
+        let widest = origin.distance(self.trees[tree as usize].origin);
+        if self.has_room(sprout.run, sprout.at, heading, widest, now) {
+            return;
+        }
         let vertex = self.vertex(origin);
         self.mark(run.trace, sprout.at, vertex);
-        let tree = self.done.tips[run.trace as usize].tree;
         let tip = self.new_tip(tree, 0, sprout.run, Kind::Ring, now);
-        self.start(tip, origin, direction(sprout.angle), vertex, sprout.run, now);
+        self.start(tip, origin, heading, vertex, sprout.run, now);
     }
 }
 

@@ -160,7 +160,8 @@ pub struct StressField {
 
 /// Cracks that break the wedges between radial ones, as rings round the nucleus.
 ///
-/// A look, not a computation: wedges bend outward and snap, which a plane model does not see.
+/// A look, not a computation: wedges bend outward and snap, which a plane model does not see. A ring starts only
+/// where a crack stands across from it, no farther than the nucleus is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rings {
     /// Distance of the first ring from the nucleus, and between rings [m].

@@ -1,7 +1,7 @@
 """The figures and tables of the thesis, recomputed through the engine.
 
 ``FIGURES`` holds them by the thesis's own number, in its order. Nothing that they show is typed in: the
-curves come from the engine, the bricks from the scenes in ``scenes/``.
+curves and cracks come from the engine, the bricks from the scenes in ``scenes/``.
 """
 
 from __future__ import annotations
@@ -38,6 +38,16 @@ from brisance.figures import (
     figure_4_6,
     figure_4_7,
     figure_4_8,
+    figure_5_5,
+    figure_5_10,
+    figure_5_11,
+    figure_5_12,
+    figure_5_13,
+    figure_5_14,
+    figure_5_16,
+    figure_6_1,
+    figure_6_2,
+    figure_6_3,
     table_2_1,
 )
 from brisance.figures.figure import Figure
@@ -70,6 +80,16 @@ _MODULES = (
     figure_4_6,
     figure_4_7,
     figure_4_8,
+    figure_5_5,
+    figure_5_10,
+    figure_5_11,
+    figure_5_12,
+    figure_5_13,
+    figure_5_14,
+    figure_5_16,
+    figure_6_1,
+    figure_6_2,
+    figure_6_3,
 )
 
 FIGURES: dict[str, Figure[Any]] = {module.FIGURE.name: module.FIGURE for module in _MODULES}

@@ -24,7 +24,7 @@ class Pattern(Model):
     pieces: Count | None = Field(
         default=None,
         description="About how many fragments, within 10 %, 1 or more; in place of critical_length. Left out "
-        "together with it: 500, or dice of 8 mm for tempered glass.",
+        "together with it: 500, or dice of 7 mm for tempered glass.",
     )
     critical_length: Positive | None = Field(
         default=None,
@@ -39,7 +39,7 @@ class Pattern(Model):
     starts: Count | None = Field(
         default=None,
         description="In about how many places cracks start, seeds and flaws spread over the pane together, "
-        "1 or more; left out, in the seeds alone up to 1 500 pieces each, and beyond at a flaw for every 120.",
+        "1 or more; left out, in the seeds alone up to 1 500 pieces each, and beyond at a flaw for every 15.",
     )
     shape: Literal["segment", "cross", "star"] = Field(
         default="star",
