@@ -23,11 +23,11 @@ fn settings(count: usize, wiggles: bool) -> Settings {
     let searched = count.min(10_000);
     let recipe = Recipe {
         fineness: Fineness::Pieces(searched),
-        starts: Some(count.div_ceil(120)),
+        starts: Some(count.div_ceil(15)),
         wiggle_probability: if wiggles { 0.5 } else { 0.0 },
         ..Recipe::default()
     };
-    let share = Recipe { starts: Some(searched.div_ceil(120)), ..recipe.clone() };
+    let share = Recipe { starts: Some(searched.div_ceil(15)), ..recipe.clone() };
     let found = share.grow(&pane()).expect("a pattern of some thousand pieces").settings.critical_length;
     let length = found * (searched as f64 / count as f64).sqrt();
     recipe.settings(&pane(), length, count).expect("settings for more of the same")

@@ -12,12 +12,6 @@ pub fn unit(seed: u64, stream: u64, index: u64) -> f64 {
     (hash(seed, stream, index) >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
-/// A number from [−½, ½), uniform.
-#[inline]
-pub fn centred(seed: u64, stream: u64, index: u64) -> f64 {
-    unit(seed, stream, index) - 0.5
-}
-
 /// 64 random bits.
 #[inline]
 pub fn hash(seed: u64, stream: u64, index: u64) -> u64 {

@@ -113,7 +113,7 @@ class Fracture:
         speed = _engine.material(MATERIAL)["crack_speed_m_s"]
         assert speed is not None
         # Dice are cut by a front at full speed; their critical length only says how large they are.
-        critical = 0.0 if self.pattern.glass == "tempered" else self.critical_length
+        critical = 0.0 if is_dice(self.pattern) else self.critical_length
         return _engine.crack_time(growth, terminal_speed=speed, critical_length=critical)
 
     def write(self, path: Path | str, *, size: tuple[int, int] | None = None) -> None:
@@ -177,9 +177,8 @@ def fracture(
         raise ArgumentError("outline", f"must enclose a finite area above 0, not {area:g} m².")
     if not 0 <= seed < 2**63:
         raise ArgumentError("seed", f"must be a whole number from 0 to 2⁶³ − 1, not {seed}.")
+    pattern = _resolved(pattern, area)
     pieces = pattern.pieces
-    if pieces is None and pattern.critical_length is None:
-        pieces = max(1, round(area / DICE**2)) if pattern.glass == "tempered" else DEFAULT_PIECES
     low, high = rings[0].min(axis=0), rings[0].max(axis=0)
     seeds = low + np.array(pattern.seeds, dtype=float).reshape(-1, 2) * (high - low)
     _check_size(pattern, area, longer_side=float((high - low).max()), pieces=pieces)
@@ -212,6 +211,26 @@ def fracture(
     return Fracture(pattern, rings, thickness, seed, engine)
 
 
+def is_dice(pattern: Pattern) -> bool:
+    """Whether a pane breaks into dice all over, as tempered glass does."""
+    return pattern.glass == "tempered" and not pattern.literal
+
+
+def _resolved(pattern: Pattern, area: float) -> Pattern:
+    """The pattern with pieces or critical_length set, whichever way it says how finely to break."""
+    if pattern.stress is not None:
+        length = _engine.critical_length(material=MATERIAL, stress=pattern.stress)
+        return pattern.model_copy(update={"stress": None, "critical_length": length})
+    if pattern.critical_length is not None or pattern.pieces is not None:
+        return pattern
+    pieces = DEFAULT_PIECES
+    if pattern.pressure is not None:
+        pieces = round(area / _engine.mean_fragment_area(pressure=pattern.pressure)[0])
+    elif is_dice(pattern):
+        pieces = round(area / DICE**2)
+    return pattern.model_copy(update={"pressure": None, "pieces": max(1, pieces)})
+
+
 def _rectangle(width: float, height: float) -> list[Array]:
     _check_positive("width", width)
     _check_positive("height", height)
@@ -222,7 +241,10 @@ def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
     """Rings as arrays: the first counter-clockwise, others clockwise, a repeated last point dropped."""
     rings = []
     for index, ring in enumerate(outline):
-        points = np.asarray(ring, dtype=float)
+        try:
+            points = np.asarray(ring, dtype=float)
+        except (TypeError, ValueError):
+            points = np.empty(0)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 3:
             raise ArgumentError("outline", "must be rings of three or more points x, y.")
         if np.array_equal(points[0], points[-1]):
@@ -255,10 +277,11 @@ def _check_size(pattern: Pattern, area: float, *, longer_side: float, pieces: in
     count, asked_by = float(pieces or 0), "pieces"
     if length is not None:
         count, asked_by = max(1, len(pattern.seeds)) * math.sqrt(area) / length, "critical_length"
-        if pattern.glass == "tempered" and not pattern.literal:
+        if is_dice(pattern):
             count = area / length**2
     check_pieces_fit(count, asked_by=asked_by)
-    if pattern.wiggle_spacing is not None and pattern.glass != "tempered":
+    check_pieces_fit(float(pattern.starts or 0), asked_by="starts")
+    if pattern.wiggle_spacing is not None and not is_dice(pattern):
         # Cracks are about as long as the sides of so many squares, and a third more.
         turns = CRACK_LENGTH * math.sqrt(area * count) / pattern.wiggle_spacing
         check_pieces_fit(count, vertices=turns, asked_by="wiggle_spacing")

@@ -18,7 +18,7 @@ use core::ops::ControlFlow;
 use glam::DVec2;
 
 use super::outline;
-use super::pattern::Pattern;
+use super::pattern::{MOST_PIECES, Pattern};
 use super::settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, Wiggle};
 use crate::error::{Error, Result, positive};
 use crate::geometry::Polygon;
@@ -151,6 +151,8 @@ const NEAR_ENOUGH: f64 = 0.05;
 /// Patterns grown at most to find a count.
 const ATTEMPTS: usize = 14;
 const STAR_ARMS: usize = 9;
+/// Up to so many pieces a star without forks gives the very count.
+const FEW: usize = 20;
 const DICE_ARMS: usize = 3;
 
 impl Recipe {
@@ -179,9 +181,8 @@ impl Recipe {
                 Err(Error::OutOfRange { what: "number of pieces", value: 0.0, expected: "at least 1" })
             }
             Fineness::Pieces(1) => self.unbroken(outline),
-            Fineness::Pieces(count) if self.glass == Glass::Tempered => {
-                let length = libm::sqrt(outline.area() / count as f64);
-                self.grow_with(outline, length, count, observer)
+            Fineness::Pieces(count) if count <= FEW && !self.literal && self.seeds.len() <= 1 => {
+                self.few(outline, count)
             }
             Fineness::Pieces(count) => self.search(outline, count, observer),
         }
@@ -195,12 +196,26 @@ impl Recipe {
     pub fn settings(&self, outline: &Polygon, critical_length: f64, pieces: usize) -> Result<Settings> {
         positive("critical length [m]", critical_length)?;
         let seeds = if self.seeds.is_empty() { vec![middle(outline)] } else { self.seeds.clone() };
-        let dice = self.glass == Glass::Tempered && !self.literal;
+        let dice = self.is_dice();
+        for &seed in &seeds {
+            let enough = 1e-6 * longer_side(outline);
+            if !outline::contains(outline, seed) || outline::clearance(outline, seed) < enough {
+                return Err(Error::Malformed(format!(
+                    "a crack starts at ({}, {}), which is outside the pane or on its border; give a point inside it",
+                    seed.x, seed.y
+                )));
+            }
+        }
         let wanted = if dice {
             outline.area() / (2.0 * critical_length * critical_length)
         } else {
             self.starts_for(pieces) as f64
         };
+        if wanted > MOST_PIECES {
+            return Err(Error::Malformed(format!(
+                "cracks would start in {wanted:.0} places; at most {MOST_PIECES:.0} are possible"
+            )));
+        }
         let nuclei = self.nuclei(outline, &seeds, wanted, dice);
         let grain = if dice { critical_length } else { grain(outline, &nuclei, critical_length) };
         let spacing = self.wiggle_spacing.unwrap_or(grain / 3.0);
@@ -237,6 +252,11 @@ impl Recipe {
         })
     }
 
+    /// Whether the pane breaks into dice all over, as tempered glass does.
+    pub fn is_dice(&self) -> bool {
+        self.glass == Glass::Tempered && !self.literal
+    }
+
     /// In how many places cracks start for a count of pieces; 0 where the seeds are enough.
     pub fn starts_for(&self, pieces: usize) -> usize {
         let needles = pieces > MOST_PER_NUCLEUS * self.seeds.len().max(1);
@@ -263,12 +283,28 @@ impl Recipe {
         Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
     }
 
+    /// A star whose arms run to the border: as many pieces as arms.
+    fn few(&self, outline: &Polygon, count: usize) -> Result<Grown> {
+        let shape = if count == 2 { Shape::Segment } else { Shape::Star };
+        let recipe = Self { glass: Glass::Annealed, ..self.clone() };
+        let mut settings = recipe.settings(outline, longer_side(outline), 1)?;
+        settings.nuclei = vec![self.nucleus(settings.nuclei[0].position, shape, count, 0)];
+        settings.forking = Forking::Never;
+        settings.rings = None;
+        settings.wiggle.spacing = self.wiggle_spacing.unwrap_or(0.05 * longer_side(outline));
+        Ok(Grown { pattern: Pattern::grow(outline, &settings)?, settings })
+    }
+
     fn search(&self, outline: &Polygon, count: usize, observer: Observer) -> Result<Grown> {
         let wanted = libm::log(count as f64);
         let side = longer_side(outline);
         let flaws = self.starts_for(count).max(self.seeds.len()).max(1) as f64;
         let share = libm::sqrt(outline.area() / flaws);
-        let mut length = (share * flaws / count as f64).min(side);
+        let mut length = if self.is_dice() {
+            libm::sqrt(outline.area() / count as f64)
+        } else {
+            (share * flaws / count as f64).min(side)
+        };
         let (mut low, mut high) = (f64::NEG_INFINITY, libm::log(side));
         let mut best: Option<(f64, Grown)> = None;
         for _attempt in 0..ATTEMPTS {
@@ -287,7 +323,8 @@ impl Recipe {
             } else {
                 high = here
             }
-            let guess = here + off;
+            // The count of dice goes with the square of their size, that of branches about with the length itself.
+            let guess = here + if self.is_dice() { 0.5 * off } else { off };
             let inside = guess > low && guess < high;
             length = libm::exp(if inside {
                 guess

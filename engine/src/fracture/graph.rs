@@ -171,6 +171,7 @@ impl Graph {
     fn move_apart(&mut self, vertex: u32, fan: &[u32]) {
         let [first, last] = [fan[0], fan[fan.len() - 1]].map(|half| self.heading(half).normalize());
         let middle = (first + last).try_normalize().unwrap_or(first.perp());
+        let middle = if self.span(fan) > core::f64::consts::PI { -middle } else { middle };
         let shortest = fan.iter().map(|&half| self.heading(half).length()).fold(f64::INFINITY, f64::min);
         let own = self.vertices.len() as u32;
         self.vertices.push(self.vertices[vertex as usize] + middle * (APART * shortest));
@@ -325,7 +326,7 @@ impl Graph {
 
     /// The walk whose inside is met first on the way to the left from a point.
     fn left_of(&self, point: DVec2, island: u32, loop_of: &[u32]) -> Option<u32> {
-        let mut nearest = (f64::NEG_INFINITY, None);
+        let mut nearest: Option<(f64, [DVec2; 2], u32)> = None;
         for (half, &walk) in loop_of.iter().enumerate() {
             if walk == NONE || walk == island {
                 continue;
@@ -334,13 +335,18 @@ impl Graph {
             let to = self.vertices[self.target(half as u32) as usize];
             // Downward half-edges have their inside to the right of them.
             if from.y > point.y && to.y <= point.y && turn(from, to, point) > 0.0 {
-                let x = from.x + (to.x - from.x) * ((from.y - point.y) / (from.y - to.y));
-                if x > nearest.0 {
-                    nearest = (x, Some(walk));
+                let level = (from.y - point.y) / (from.y - to.y);
+                let x = if to.y == point.y { to.x } else { from.x + (to.x - from.x) * level };
+                // Of two that end in one vertex at this very height, the one farther right above it is nearer.
+                let nearer = nearest.is_none_or(|(best, [tail, head], _)| {
+                    x > best || (x == best && turn(tail, head, from) > 0.0)
+                });
+                if nearer {
+                    nearest = Some((x, [from, to], walk));
                 }
             }
         }
-        nearest.1
+        nearest.map(|(_, _, walk)| walk)
     }
 
     fn walk(&self, walk: &Loop) -> impl Iterator<Item = u32> + '_ {

@@ -68,6 +68,8 @@ pub(super) struct Tip {
     /// Growth at which it may next turn.
     next_turn: f64,
     next_ring: u32,
+    /// The vertex at which another trace stopped it.
+    end: u32,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -232,6 +234,7 @@ impl<'a> Growth<'a> {
                 draws: 0,
                 next_turn: f64::INFINITY,
                 next_ring: NONE,
+                end: NONE,
             });
             self.mark(trace, 0.0, (first + i) as u32);
             self.mark(trace, length, (first + j) as u32);
@@ -287,6 +290,7 @@ impl<'a> Growth<'a> {
             draws: 0,
             next_turn,
             next_ring,
+            end: NONE,
         });
         if kind == Kind::Branch {
             let tree = &mut self.trees[tree as usize];
@@ -305,10 +309,12 @@ impl<'a> Growth<'a> {
         if vertex != NONE {
             self.mark(tip, now, vertex);
         }
+        let last = self.last_growth(tip);
         let state = &mut self.done.tips[tip as usize];
-        let limit = if state.kind == Kind::Branch { self.settings.reach } else { None };
-        let last = limit.map_or(f64::INFINITY, |reach| self.trees[state.tree as usize].start + reach);
-        let to = (now + self.grid.cell).min(state.next_turn).min(last);
+        let planned = state.next_turn.min(last);
+        // No run is so short that its ends are one place.
+        let whole = planned - (now + self.grid.cell) < self.done.resolution;
+        let to = if whole { planned } else { now + self.grid.cell };
         let number = self.done.runs.len() as u32;
         state.run = number;
         self.push_run(Run { origin, direction, from: now, to, trace: tip, previous, vertex, mark: 0 });
@@ -363,16 +369,14 @@ impl<'a> Growth<'a> {
             return;
         }
         let origin = run.point(now);
-        let reached = self.settings.reach.is_some_and(|reach| {
-            tip.kind == Kind::Branch && now >= self.trees[tip.tree as usize].start + reach
-        });
-        if reached {
+        let slack = self.done.resolution;
+        if now >= self.last_growth(run.trace) - slack {
             let vertex = self.vertex(origin);
             self.mark(run.trace, now, vertex);
             self.halt(run.trace, NONE);
             return;
         }
-        let turn = if now >= tip.next_turn { self.turn(run.trace, &run, origin) } else { 0.0 };
+        let turn = if now >= tip.next_turn - slack { self.turn(run.trace, &run, origin) } else { 0.0 };
         if turn == 0.0 {
             self.start(run.trace, origin, run.direction, NONE, number, now);
         } else {
@@ -380,6 +384,12 @@ impl<'a> Growth<'a> {
             let turned = rotated(run.direction, turn);
             self.start(run.trace, origin, turned, vertex, number, now);
         }
+    }
+
+    /// Growth at which a tip has reached as far as it may.
+    fn last_growth(&self, tip: u32) -> f64 {
+        let tree = self.done.tips[tip as usize].tree as usize;
+        self.settings.reach.map_or(f64::INFINITY, |reach| self.trees[tree].start + reach)
     }
 
     /// How far a tip turns where it may [rad]: at random, and as it is drawn.
@@ -428,14 +438,20 @@ impl<'a> Growth<'a> {
     /// A tip has come to another trace: it stops there, if both have come that far.
     fn stop(&mut self, number: u32, other: u32, now: f64) {
         let (run, hit) = (self.done.runs[number as usize], self.done.runs[other as usize]);
-        let tip = &self.done.tips[run.trace as usize];
-        if !tip.running || tip.run != number {
+        let tip = self.done.tips[run.trace as usize];
+        let slack = self.done.resolution;
+        let just_stopped = !tip.running && tip.end != NONE && now < run.to + slack;
+        if tip.run != number || !(tip.running || just_stopped) {
             return;
         }
-        let slack = self.done.resolution;
         let Some(meeting) = run.meet(&hit, slack) else { return };
         let place = meeting.second.min(hit.to);
         if meeting.second > hit.to + slack {
+            return;
+        }
+        if just_stopped {
+            // More than two come together in one point: all their traces share its vertex.
+            self.mark(hit.trace, place, tip.end);
             return;
         }
         let vertex = if run.vertex != NONE && now - run.from < slack {
@@ -447,6 +463,7 @@ impl<'a> Growth<'a> {
         };
         self.mark(hit.trace, place, vertex);
         self.done.runs[number as usize].to = now.max(run.from);
+        self.done.tips[run.trace as usize].end = vertex;
         self.halt(run.trace, hit.trace);
     }
 
@@ -665,5 +682,7 @@ fn cell_size(outline: &Polygon, settings: &Settings, extent: f64) -> f64 {
     let arms: usize = settings.nuclei.iter().map(|n| n.arms.len()).sum();
     let pieces = arms as f64 + count * share / settings.critical_length;
     let spacing = libm::sqrt(outline.area() / pieces);
+    // Where cracks turn often their runs are short, and smaller cells hold fewer of them.
+    let spacing = if settings.turns() { spacing.min(8.0 * settings.wiggle.spacing) } else { spacing };
     spacing.clamp(extent / MOST_CELLS, extent / 8.0)
 }

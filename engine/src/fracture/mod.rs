@@ -21,7 +21,7 @@ mod pieces;
 mod run;
 mod settings;
 
-pub use clock::CrackClock;
+pub use clock::{CrackClock, HEAD_START};
 pub use glass::{Fineness, Glass, Grown, Recipe, Shape};
 pub use pattern::{Crack, Cracks, Fragment, Pattern, Stopper};
 pub use pieces::Pieces;

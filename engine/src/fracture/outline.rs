@@ -9,6 +9,8 @@ use crate::geometry::Polygon;
 /// An outline may lie this many times its own size away from the origin, or its digits no longer tell places in it
 /// apart.
 const FARTHEST: f64 = 1e3;
+/// A pane has at least this area, in squares of its longer side: narrower ones are lost in rounding.
+const NARROWEST: f64 = 1e-6;
 
 /// Checks that rings bound a pane: the outer one counter-clockwise, holes clockwise inside it, no side meeting
 /// another one.
@@ -34,6 +36,12 @@ pub fn check(outline: &Polygon) -> Result<()> {
     let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     if low.abs().max(high.abs()).max_element() > FARTHEST * (high - low).max_element() {
         return refuse("lies too far from the origin for its size; move it nearer");
+    }
+    let longer = (high - low).max_element();
+    if outline.area() < NARROWEST * longer * longer {
+        return refuse(
+            "is too narrow for its length; its area must be a millionth of its longer side squared or more",
+        );
     }
     if let Some((p, q)) = crossing(outline) {
         return refuse(&format!(

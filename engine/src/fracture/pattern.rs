@@ -74,7 +74,7 @@ impl<'a> Cracks<'a> {
         let cracks = cracks(&self.traces, self.settings);
         let faces = graph::faces(&mut self.traces, self.settings);
         let pattern = Pattern { cracks, faces };
-        debug_assert!(pattern.fills(self.area), "fragments do not fill the pane");
+        assert!(pattern.fills(self.area), "fragments do not fill the pane");
         pattern
     }
 }
@@ -86,8 +86,8 @@ pub struct Fragment<'a> {
     index: usize,
 }
 
-/// Growth beyond which a pattern would not fit into 32-bit numbers.
-const MOST_PIECES: f64 = 5e7;
+/// More pieces than this would not fit into 32-bit numbers.
+pub(super) const MOST_PIECES: f64 = 5e7;
 
 impl Pattern {
     /// Grows cracks in a pane and finds the fragments.
@@ -205,6 +205,9 @@ impl Faces {
     }
 }
 
+/// Cracks turn at most ten thousand times along the pane's longer side.
+const SHORTEST_STEP: f64 = 0.999e-4;
+
 fn fits(outline: &Polygon, settings: &Settings) -> Result<()> {
     let points = outline.points();
     let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
@@ -223,6 +226,17 @@ fn fits(outline: &Polygon, settings: &Settings) -> Result<()> {
             "a crack starts at ({}, {}), which is outside the pane; give a point inside it",
             at.x, at.y
         )));
+    }
+    let shortest = SHORTEST_STEP * size;
+    let steps = [
+        ("wiggle spacing [m]", settings.turns().then_some(settings.wiggle.spacing)),
+        ("spacing of rings [m]", settings.rings.map(|rings| rings.spacing)),
+    ];
+    for (what, step) in steps {
+        if let Some(value) = step.filter(|&step| step < shortest) {
+            let expected = "at least a ten-thousandth of the pane's longer side";
+            return Err(Error::OutOfRange { what, value, expected });
+        }
     }
     let share = libm::sqrt(outline.area() / settings.nuclei.len() as f64);
     let pieces = settings.nuclei.len() as f64 * share / settings.critical_length;

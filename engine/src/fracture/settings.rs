@@ -217,7 +217,7 @@ impl Settings {
             self.fork_angle,
             1e-3,
             PI - 1e-3,
-            "an angle above 0 and below 180 degrees",
+            "from 0.001 to 3.14 (0.06 to 179.9 degrees)",
         )?;
         within("fork variance [rad]", self.fork_variance, 0.0, PI, "an angle from 0 to 180 degrees")?;
         within("wiggle probability", self.wiggle.probability, 0.0, 1.0, "a number from 0 to 1")?;
@@ -264,6 +264,11 @@ impl Nucleus {
         not_negative("start of a crack [m]", self.start)?;
         if self.arms.is_empty() {
             return Err(Error::Malformed("a crack needs at least one arm to start with".into()));
+        }
+        let turned = |arm: f64| DVec2::new(libm::cos(arm), libm::sin(arm));
+        let same = |a: f64, b: f64| turned(a).distance(turned(b)) < 1e-9;
+        if self.arms.iter().enumerate().any(|(i, &a)| self.arms[i + 1..].iter().any(|&b| same(a, b))) {
+            return Err(Error::Malformed("two arms of a crack point the same way; keep one of them".into()));
         }
         self.arms.iter().try_for_each(|&arm| finite("direction of a crack's arm [rad]", arm).map(drop))
     }

@@ -54,6 +54,17 @@ def fracture(
     critical_length: Annotated[
         float | None, typer.Option(metavar="M", help="Growth between forks, in place of --pieces.")
     ] = None,
+    stress: Annotated[
+        float | None,
+        typer.Option(metavar="PA", help="Bending stress as it fails: gives the critical length (5.5)."),
+    ] = None,
+    pressure: Annotated[
+        float | None, typer.Option(metavar="PA", help="Peak pressure on it: gives the mean area (2.45).")
+    ] = None,
+    starts: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="In about how many places cracks start; left out: by the pieces."),
+    ] = None,
     glass: Annotated[
         Glass, typer.Option(help="Long shards, dice, or shards that stay on an interlayer.")
     ] = Glass.annealed,
@@ -125,14 +136,24 @@ def fracture(
     pixels = None if size is None else parse_size(size)
     for path in output or ():
         check_output(path)
-    if pieces is not None and critical_length is not None:
-        raise InputError("--pieces and --critical-length both say how finely to break; give one of them.")
+    ways = {
+        "--pieces": pieces,
+        "--critical-length": critical_length,
+        "--stress": stress,
+        "--pressure": pressure,
+    }
+    given = [flag for flag, value in ways.items() if value is not None]
+    if len(given) > 1:
+        raise InputError(f"{given[0]} and {given[1]} both say how finely to break; give one of them.")
     pattern = checked(
         Pattern,
         flags=_FLAGS,
         glass=glass.value,
         pieces=pieces,
         critical_length=critical_length,
+        stress=stress,
+        pressure=pressure,
+        starts=starts,
         seeds=pairs(seed_at or []),
         shape=shape.value,
         literal=literal,

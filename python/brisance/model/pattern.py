@@ -31,6 +31,16 @@ class Pattern(Model):
         description="Critical length of cracks [m], above 0, at most the pane's longer side: a tree forks "
         "each time its cracks have grown by this much. Smaller gives more and finer pieces.",
     )
+    stress: Positive | None = Field(
+        default=None,
+        description="Bending stress in the pane as it fails [Pa], above 0; in place of pieces: it gives the "
+        "critical length, by thesis (5.5).",
+    )
+    pressure: Positive | None = Field(
+        default=None,
+        description="Peak pressure on the pane [Pa], above 0; in place of pieces: it gives their mean area, by "
+        "thesis (2.45), 1 mm² or more.",
+    )
     seeds: list[Place] = Field(
         default_factory=list,
         description="Where cracks start, as shares of width and height from the lower left corner, 0 to 1; "
@@ -91,6 +101,8 @@ class Pattern(Model):
 
     @model_validator(mode="after")
     def _one_fineness(self) -> Pattern:
-        if self.pieces is not None and self.critical_length is not None:
-            raise ValueError("has both pieces and critical_length; keep one of them")
+        ways = ("pieces", "critical_length", "stress", "pressure")
+        given = [way for way in ways if getattr(self, way) is not None]
+        if len(given) > 1:
+            raise ValueError(f"has both {given[0]} and {given[1]}; keep one of them")
         return self
