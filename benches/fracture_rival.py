@@ -1,7 +1,7 @@
 """Break the same pane into the same count of closed pieces as the fastest open rival does, in one run.
 
-The rival makes Voronoi cells with voro++ (multivoro) and a closed mesh of each with Manifold. Its cells are convex and
-know no cracks; ours are grown. Run with ``python benches/fracture_rival.py`` after
+The rival makes Voronoi cells with voro++ (multivoro) and a closed mesh of each with Manifold. Its cells are
+convex and know no cracks; ours are grown. Run with ``python benches/fracture_rival.py`` after
 ``pip install multivoro manifold3d``; without multivoro it measures ours alone.
 """
 
@@ -31,7 +31,7 @@ def best_of(work: Callable[[], object]) -> float:
 
 
 def ours(count: int) -> tuple[int, dict[str, float]]:
-    """Pieces and times of the stages [s] of straight cracks; the search for the critical length is not counted."""
+    """Pieces and times of the stages [s] of straight cracks, without the search for their critical length."""
     started = time.perf_counter()
     engine = br.fracture(br.Pattern(pieces=count, wiggle_probability=0.0), thickness=THICKNESS).engine
     searched = time.perf_counter() - started

@@ -87,8 +87,14 @@ fn any_outline(draws: &mut Draws) -> Polygon {
 fn any_point(draws: &mut Draws, pane: &Polygon) -> DVec2 {
     let low = pane.points().iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = pane.points().iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    // Now and then on a lattice, where cracks meet three and four at a time and level with corners of holes.
+    let lattice = draws.chance(0.3);
     loop {
-        let point = low + (high - low) * DVec2::new(draws.unit(), draws.unit());
+        let mut share = DVec2::new(draws.unit(), draws.unit());
+        if lattice {
+            share = (share * 12.0).round() / 12.0;
+        }
+        let point = low + (high - low) * share;
         if outline::contains(pane, point) {
             return point;
         }
@@ -107,7 +113,17 @@ fn any_settings(draws: &mut Draws, pane: &Polygon) -> Settings {
             Nucleus { start, ..Nucleus::star(any_point(draws, pane), angle, arms) }
         })
         .collect();
-    let spacing = size * draws.between(0.005, 0.1);
+    // Now and then the length of a cell of the grid, or a whole number of them.
+    let extent = {
+        let points = pane.points().iter().copied();
+        (points.clone().fold(DVec2::NEG_INFINITY, DVec2::max) - points.fold(DVec2::INFINITY, DVec2::min))
+            .max_element()
+    };
+    let spacing = if draws.chance(0.2) {
+        extent / 8.0 * draws.whole(1, 3) as f64
+    } else {
+        size * draws.between(0.005, 0.1)
+    };
     let guide = match draws.whole(0, 5) {
         0 => Guide::Outward { length: size * draws.between(0.02, 0.5) },
         1 => Guide::Direction { angle: draws.between(0.0, PI), length: size * draws.between(0.02, 0.5) },

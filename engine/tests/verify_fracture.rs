@@ -322,6 +322,82 @@ fn petals_that_meet_in_their_nucleus_come_apart_as_simple_pieces() {
     assert_eq!(solids.len(), pattern.len());
 }
 
+#[test]
+fn a_hole_level_with_a_corner_of_cracks_lies_in_the_fragment_around_it() {
+    // The hole's left corner is at the height of the nucleus and of everything that ends in it.
+    let mut pane = square();
+    let (at, half) = (DVec2::new(0.75, 0.5), 0.04);
+    let corners = [(-half, 0.0), (0.0, half), (half, 0.0), (0.0, -half)];
+    pane.push_ring(corners.map(|(x, y)| at + DVec2::new(x, y)));
+    for turn in 0..40 {
+        let arms = [1.7, 1.0, 3.5, 5.5].map(|arm| arm + 0.01 * f64::from(turn));
+        let nuclei = vec![Nucleus { position: DVec2::new(0.3, 0.5), arms: arms.to_vec(), start: 0.0 }];
+        let settings = Settings { nuclei, forking: Forking::Never, ..literal(1.0, 30.0, 0.0) };
+        let pattern = Pattern::grow(&pane, &settings).unwrap();
+        assert!(Pieces::of(&pattern, 1e-3, 2500.0).is_ok(), "turn {turn}");
+    }
+}
+
+#[test]
+fn cracks_that_come_together_four_at_a_time_share_one_corner() {
+    for count in [2, 3, 7] {
+        for turned in [0.0, 0.25 * PI] {
+            let step = 1.0 / f64::from(count);
+            let nuclei = (0..count * count)
+                .map(|i| DVec2::new(f64::from(i % count) + 0.5, f64::from(i / count) + 0.5) * step)
+                .map(|at| Nucleus::cross(at, turned))
+                .collect();
+            let settings = Settings { nuclei, forking: Forking::Never, ..literal(1.0, 30.0, 0.0) };
+            let pattern = grow(&settings);
+            // Squares of the lattice, cut by the border.
+            let cells = if turned == 0.0 { (count + 1) * (count + 1) } else { 2 * count * (count + 1) };
+            assert_eq!(pattern.len() as i32, cells, "{count} {turned}");
+            assert!(Pieces::of(&pattern, 1e-3, 2500.0).is_ok());
+        }
+    }
+}
+
+#[test]
+fn no_tip_stops_itself_where_it_turns_at_the_edge_of_a_cell() {
+    let settings = Settings {
+        wiggle: Wiggle { probability: 0.9, variance: 0.3, spacing: 0.25 },
+        ..literal(0.3, 40.0, 20.0)
+    };
+    for seed in 0..40 {
+        let pattern = grow(&Settings { seed, ..settings.clone() });
+        let own = |c: &&Crack| matches!(c.stopped_by, Some(Stopper::Tip(tip)) if tip == c.tip);
+        assert_eq!(pattern.cracks.iter().filter(own).count(), 0, "seed {seed}");
+    }
+}
+
+#[test]
+fn nothing_grows_beyond_its_reach_rings_neither() {
+    for shape in [Shape::Segment, Shape::Cross, Shape::Star] {
+        let recipe = Recipe { shape, reach: Some(0.2), rings: 1.0, ..Recipe::default() };
+        let recipe = Recipe { fineness: Fineness::CriticalLength(0.01), ..recipe };
+        let pattern = recipe.grow(&square()).unwrap().pattern;
+        let far = pattern.cracks.iter().map(|c| c.ends[1].distance(MIDDLE)).fold(0.0, f64::max);
+        assert!(far < 0.2 + 1e-9, "{shape:?}: {far}");
+    }
+}
+
+#[test]
+fn a_few_pieces_are_as_many_as_were_asked_for() {
+    for glass in [Glass::Annealed, Glass::Tempered] {
+        for count in 2..=20 {
+            let recipe = Recipe { glass, fineness: Fineness::Pieces(count), ..Recipe::default() };
+            for seed in 1..=5 {
+                let grown = Recipe { seed, ..recipe.clone() }.grow(&square()).unwrap();
+                assert!(
+                    grown.pattern.len().abs_diff(count) * 10 <= count,
+                    "{count}: {}",
+                    grown.pattern.len()
+                );
+            }
+        }
+    }
+}
+
 /// Median over fragments of the root of the ratio of their principal second moments: length over width.
 fn median_aspect(pattern: &Pattern) -> f64 {
     let mut polygon = Polygon::default();
@@ -558,6 +634,15 @@ fn bad_settings_are_refused_in_a_sentence() {
     assert!(with(|s| s.wiggle.probability = 1.5).contains("wiggle probability"));
     assert!(with(|s| s.nuclei[0].position = DVec2::new(2.0, 0.5)).contains("outside the pane"));
     assert!(with(|s| s.nuclei.clear()).contains("at least one place"));
+    assert!(with(|s| s.nuclei[0].arms = vec![0.0, 2.0, 2.0 * PI]).contains("point the same way"));
+    let fine = Wiggle { probability: 0.5, variance: 0.3, spacing: 1e-6 };
+    assert!(refused(Settings { wiggle: fine, ..base.clone() }).contains("wiggle spacing"));
+    let thread = rectangle(1e7, 1.0);
+    assert!(Pattern::grow(&thread, &base).unwrap_err().to_string().contains("too narrow"));
+    let starts = Recipe { starts: Some(1 << 50), ..Recipe::default() };
+    assert!(starts.grow(&square()).unwrap_err().to_string().contains("places"));
+    let border = Recipe { seeds: vec![DVec2::new(0.0, 0.5)], ..Recipe::default() };
+    assert!(border.grow(&square()).unwrap_err().to_string().contains("border"));
     let crossed = Polygon::new(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.6)].map(DVec2::from));
     assert!(Pattern::grow(&crossed, &base).is_err());
     let bow = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, -1.0), (0.0, 2.0)].map(DVec2::from);

@@ -38,8 +38,8 @@ class Pattern(Model):
     )
     pressure: Positive | None = Field(
         default=None,
-        description="Peak pressure on the pane [Pa], above 0; in place of pieces: it gives their mean area, by "
-        "thesis (2.45), 1 mm² or more.",
+        description="Peak pressure on the pane [Pa], above 0; in place of pieces: it gives their mean area, "
+        "by thesis (2.45), 1 mm² or more.",
     )
     seeds: list[Place] = Field(
         default_factory=list,

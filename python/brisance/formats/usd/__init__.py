@@ -30,7 +30,6 @@ from brisance.formats.usd.layer import check_usd_path, start_layer, write_layer
 from brisance.formats.usd.materials import author_materials
 from brisance.formats.usd.show import Show
 from brisance.formats.usd.surroundings import author_charges, author_ground
-from brisance.interrupt import if_stopped
 
 if TYPE_CHECKING:
     from brisance.result import Result
