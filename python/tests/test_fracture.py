@@ -390,8 +390,8 @@ def test_wrong_input_is_one_sentence_and_leaves_files_alone(
 def test_ctrl_c_stops_the_cracks(tmp_path: Path) -> None:
     path = tmp_path / "pane.svg"
     path.write_text("precious")
-    # Cracks that turn every hundredth of a millimetre take minutes.
-    arguments = ["fracture", "--pieces", "500", "--wiggle-spacing", "1e-5", "-o", str(path)]
+    # So many pieces are searched for over many seconds.
+    arguments = ["fracture", "--pieces", "500000", "-o", str(path)]
     program = PROGRAM.replace("sys.exit", "print('ready', flush=True); sys.exit")
     with subprocess.Popen(
         [sys.executable, "-c", program, *arguments],
