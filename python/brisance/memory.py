@@ -46,9 +46,10 @@ def check_pieces_fit(pieces: float, *, vertices: float = 0, asked_by: str) -> No
     """
     needed, available = pieces * BYTES_A_PIECE + vertices * BYTES_A_TURN, available_bytes()
     if available is not None and needed > available:
+        turns = f" with {vertices:,.0f} turns in their cracks" if vertices else ""
         raise ArgumentError(
             asked_by,
-            f"asks for about {pieces:,.0f} fragments with {vertices:,.0f} turns in their cracks, which need "
+            f"asks for about {pieces:,.0f} fragments{turns}, which need "
             f"{_amount(needed)} of memory, and {_amount(available)} are available; ask for fewer.",
         )
 
