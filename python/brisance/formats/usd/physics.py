@@ -34,12 +34,25 @@ def author_body(
     spin: Gf.Vec3f | None = None,
     inertia: tuple[Gf.Vec3f, Gf.Quatf] | None = None,
 ) -> None:
-    """Make a Mesh a kinematic rigid body with a convex collider, and apply the schema that binds materials.
+    """Make a Mesh a rigid body, as :func:`author_kind` says, of a mass [kg].
 
     ``velocity`` [m/s] and ``spin`` [degrees/s], in the parent's axes, are those at the last frame.
     ``inertia`` holds the principal moments [kg m²] and the rotation from their axes to the body's; left out,
     a simulator takes the collider's.
     """
+    author_kind(prim)
+    author_mass(prim, mass)
+    if inertia is not None:
+        attribute(prim, "physics:diagonalInertia", _T.Float3, inertia[0])
+        attribute(prim, "physics:principalAxes", _T.Quatf, inertia[1])
+    if velocity is not None:
+        attribute(prim, "physics:velocity", _T.Vector3f, velocity)
+    if spin is not None:
+        attribute(prim, "physics:angularVelocity", _T.Vector3f, spin)
+
+
+def author_kind(prim: Sdf.PrimSpec) -> None:
+    """Author what all pieces have in common: kinematic bodies with convex colliders, bound to materials."""
     apply(
         prim,
         "MaterialBindingAPI",
@@ -49,16 +62,13 @@ def author_body(
         "PhysicsMeshCollisionAPI",
     )
     attribute(prim, "physics:kinematicEnabled", _T.Bool, True)
-    attribute(prim, "physics:mass", _T.Float, mass)
     attribute(prim, "physics:centerOfMass", _T.Point3f, Gf.Vec3f(0))
     attribute(prim, "physics:approximation", _T.Token, "convexHull", uniform=True)
-    if inertia is not None:
-        attribute(prim, "physics:diagonalInertia", _T.Float3, inertia[0])
-        attribute(prim, "physics:principalAxes", _T.Quatf, inertia[1])
-    if velocity is not None:
-        attribute(prim, "physics:velocity", _T.Vector3f, velocity)
-    if spin is not None:
-        attribute(prim, "physics:angularVelocity", _T.Vector3f, spin)
+
+
+def author_mass(prim: Sdf.PrimSpec, mass: float) -> None:
+    """Author the mass of a body [kg]."""
+    attribute(prim, "physics:mass", _T.Float, mass)
 
 
 def author_static_collider(prim: Sdf.PrimSpec) -> None:
