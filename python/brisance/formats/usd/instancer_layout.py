@@ -2,9 +2,11 @@
 
 A prototype stands for all pieces with the same mesh, mass and tint, and carries shape, material and physics:
 applied to a prototype, the rigid-body schemas make every instance a body of its own. What all prototypes have
-in common stands once, in a class that they inherit. Positions are the recorded float32 values. Orientations are half floats, as the schema's ``orientations`` holds them and as
-Blender reads them: each component is within 2.5e-4 of the recorded one, which turns a piece by less than 0.06
-degrees.
+in common stands once, in a class that they inherit.
+
+Positions are the recorded float32 values. Orientations are half floats, as the schema's ``orientations``
+holds them and as Blender reads them: each component is within 2.5e-4 of the recorded one, which turns a piece
+by less than 0.06 degrees.
 """
 
 from __future__ import annotations
