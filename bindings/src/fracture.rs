@@ -1,6 +1,7 @@
 //! Crack patterns for Python.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use engine::fracture::{
@@ -22,8 +23,8 @@ const HEARTBEAT: Duration = Duration::from_millis(50);
 /// run. Arrays are made anew at each access.
 #[pyclass(module = "brisance._engine", frozen)]
 pub struct FracturePattern {
-    grown: Grown,
-    seconds: f64,
+    pub grown: Arc<Grown>,
+    pub seconds: f64,
 }
 
 /// Grows the cracks of a finished pattern once more, alone, to see what they and what the fragments cost: wall-clock
@@ -34,10 +35,7 @@ pub fn fracture_stages(
     outline: Vec<PyReadonlyArray2<'_, f64>>,
     pattern: &FracturePattern,
 ) -> PyResult<(f64, f64)> {
-    let mut pane = Polygon::default();
-    for ring in &outline {
-        pane.push_ring(points(ring, "outline")?);
-    }
+    let pane = polygon(&outline)?;
     py.detach(|| {
         let started = Instant::now();
         let mut go_on = || ControlFlow::Continue(());
@@ -48,21 +46,16 @@ pub fn fracture_stages(
     })
 }
 
-/// Grows the cracks of a pane. `outline` is a list of rings (n, 2), the outer one counter-clockwise and holes
-/// clockwise; give `pieces` or `critical_length`. Angles in radians.
-#[pyfunction]
-#[pyo3(signature = (*, outline, glass, pieces, critical_length, seeds, starts, shape, literal, fork_angle, fork_variance,
-    wiggle_probability, wiggle_variance, wiggle_spacing, rings, reach, toward, seed))]
-#[allow(clippy::too_many_arguments)]
-pub fn fracture(
-    py: Python<'_>,
-    outline: Vec<PyReadonlyArray2<'_, f64>>,
-    glass: &str,
+/// How a pane breaks, as Python says it; angles in radians.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct RecipeArgument<'py> {
+    glass: String,
     pieces: Option<usize>,
     critical_length: Option<f64>,
-    seeds: PyReadonlyArray2<'_, f64>,
+    seeds: PyReadonlyArray2<'py, f64>,
     starts: Option<usize>,
-    shape: &str,
+    shape: String,
     literal: bool,
     fork_angle: f64,
     fork_variance: f64,
@@ -73,39 +66,67 @@ pub fn fracture(
     reach: Option<f64>,
     toward: Option<f64>,
     seed: u64,
-) -> PyResult<FracturePattern> {
+}
+
+impl RecipeArgument<'_> {
+    /// The engine's recipe, and whether it says how finely to break.
+    pub fn into_engine(self) -> PyResult<(Recipe, bool)> {
+        let fineness = match (self.pieces, self.critical_length) {
+            (Some(count), None) => Some(Fineness::Pieces(count)),
+            (None, Some(length)) => Some(Fineness::CriticalLength(length)),
+            (None, None) => None,
+            _ => return Err(InputError::new_err("give either pieces or critical_length")),
+        };
+        let kinds =
+            [("annealed", Glass::Annealed), ("tempered", Glass::Tempered), ("laminated", Glass::Laminated)];
+        let shapes = [("segment", Shape::Segment), ("cross", Shape::Cross), ("star", Shape::Star)];
+        let recipe = Recipe {
+            glass: choose("glass", &self.glass, &kinds)?,
+            fineness: fineness.unwrap_or(Fineness::Pieces(1)),
+            seeds: points(&self.seeds, "seeds")?,
+            starts: self.starts,
+            shape: choose("shape", &self.shape, &shapes)?,
+            literal: self.literal,
+            fork_angle: self.fork_angle,
+            fork_variance: self.fork_variance,
+            wiggle_probability: self.wiggle_probability,
+            wiggle_variance: self.wiggle_variance,
+            wiggle_spacing: self.wiggle_spacing,
+            rings: self.rings,
+            reach: self.reach,
+            toward: self.toward,
+            seed: self.seed,
+        };
+        Ok((recipe, fineness.is_some()))
+    }
+}
+
+/// Rings (n, 2) as a polygon.
+pub fn polygon(outline: &[PyReadonlyArray2<'_, f64>]) -> PyResult<Polygon> {
     let mut pane = Polygon::default();
-    for ring in &outline {
+    for ring in outline {
         pane.push_ring(points(ring, "outline")?);
     }
-    let fineness = match (pieces, critical_length) {
-        (Some(count), None) => Fineness::Pieces(count),
-        (None, Some(length)) => Fineness::CriticalLength(length),
-        _ => return Err(InputError::new_err("give either pieces or critical_length")),
-    };
-    let kinds =
-        [("annealed", Glass::Annealed), ("tempered", Glass::Tempered), ("laminated", Glass::Laminated)];
-    let shapes = [("segment", Shape::Segment), ("cross", Shape::Cross), ("star", Shape::Star)];
-    let recipe = Recipe {
-        glass: choose("glass", glass, &kinds)?,
-        fineness,
-        seeds: points(&seeds, "seeds")?,
-        starts,
-        shape: choose("shape", shape, &shapes)?,
-        literal,
-        fork_angle,
-        fork_variance,
-        wiggle_probability,
-        wiggle_variance,
-        wiggle_spacing,
-        rings,
-        reach,
-        toward,
-        seed,
-    };
+    Ok(pane)
+}
+
+/// Grows the cracks of a pane. `outline` is a list of rings (n, 2), the outer one counter-clockwise and holes
+/// clockwise; `recipe` says how it breaks, with either `pieces` or `critical_length`.
+#[pyfunction]
+#[pyo3(signature = (*, outline, recipe))]
+pub fn fracture(
+    py: Python<'_>,
+    outline: Vec<PyReadonlyArray2<'_, f64>>,
+    recipe: RecipeArgument<'_>,
+) -> PyResult<FracturePattern> {
+    let pane = polygon(&outline)?;
+    let (recipe, fine) = recipe.into_engine()?;
+    if !fine {
+        return Err(InputError::new_err("give either pieces or critical_length"));
+    }
     let started = Instant::now();
     let grown = py.detach(|| grow(&recipe, &pane))?;
-    Ok(FracturePattern { grown, seconds: started.elapsed().as_secs_f64() })
+    Ok(FracturePattern { grown: Arc::new(grown), seconds: started.elapsed().as_secs_f64() })
 }
 
 /// Grows a pattern without the GIL, taking it back now and then to listen for Ctrl-C.
@@ -132,7 +153,7 @@ fn grow(recipe: &Recipe, pane: &Polygon) -> PyResult<Grown> {
     }
 }
 
-fn points(array: &PyReadonlyArray2<f64>, name: &str) -> PyResult<Vec<DVec2>> {
+pub fn points(array: &PyReadonlyArray2<f64>, name: &str) -> PyResult<Vec<DVec2>> {
     if array.shape()[1] != 2 {
         return Err(InputError::new_err(format!("{name} must have the shape (n, 2)")));
     }
@@ -242,15 +263,15 @@ impl FracturePattern {
     fn pieces(&self, py: Python<'_>, thickness: f64, density: f64) -> PyResult<Pieces> {
         let started = Instant::now();
         let inner = py.detach(|| EnginePieces::of(self.pattern(), thickness, density)).map_err(refused)?;
-        Ok(Pieces { inner, seconds: started.elapsed().as_secs_f64() })
+        Ok(Pieces { inner: Arc::new(inner), seconds: started.elapsed().as_secs_f64() })
     }
 }
 
 /// Fragments as solid pieces, in their order. Arrays are made anew at each access.
 #[pyclass(module = "brisance._engine", frozen)]
 pub struct Pieces {
-    inner: EnginePieces,
-    seconds: f64,
+    pub inner: Arc<EnginePieces>,
+    pub seconds: f64,
 }
 
 #[pymethods]

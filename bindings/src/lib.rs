@@ -10,6 +10,7 @@ mod fracture;
 mod hydrocode;
 mod material;
 mod occlusion;
+mod pane;
 mod recording;
 mod run;
 mod scene;
@@ -45,6 +46,8 @@ mod _engine {
     };
     #[pymodule_export]
     use super::occlusion::{attenuation, ring_values, sphere_pixels, unfolded_sphere};
+    #[pymodule_export]
+    use super::pane::Pane;
     #[pymodule_export]
     use super::recording::Recording;
     #[pymodule_export]

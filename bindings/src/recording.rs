@@ -9,24 +9,28 @@ use pyo3::types::PyDict;
 
 use crate::arrays::rows_of_three;
 use crate::engine;
+use crate::pane::Pane;
+use engine::simulation::Pane as EnginePane;
 
 /// Poses and facts of a finished run. Arrays are made anew at each access.
 #[pyclass(module = "brisance._engine", frozen)]
 pub struct Recording {
     inner: EngineRecording,
+    panes: Vec<Pane>,
     timing: Timing,
 }
 
 /// Wall-clock time of a run's parts.
 pub struct Timing {
     pub occlusion: Duration,
+    pub fracture: Duration,
     pub load: Duration,
     pub dynamics: Duration,
 }
 
 impl Recording {
-    pub fn new(inner: EngineRecording, timing: Timing) -> Self {
-        Self { inner, timing }
+    pub fn new(inner: EngineRecording, panes: Vec<EnginePane>, timing: Timing) -> Self {
+        Self { inner, panes: panes.into_iter().map(Pane::new).collect(), timing }
     }
 
     fn fact<'py>(&self, py: Python<'py>, fact: fn(&BodyFacts) -> f64) -> Bound<'py, PyArray1<f64>> {
@@ -124,6 +128,24 @@ impl Recording {
         self.fact(py, |f| f.rest_time)
     }
 
+    /// Of pieces of panes, the part of the impulse that pane and frame took before they were free [N s], (bodies, 3).
+    #[getter]
+    fn held_back_n_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        rows_of_three(py, self.inner.facts.iter().map(|f| f.held_back))
+    }
+
+    /// When pieces of panes were free [s]; not a number where they stay, and for other bodies, (bodies,).
+    #[getter]
+    fn free_time_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.fact(py, |f| f.free_time)
+    }
+
+    /// What became of the panes, in order; their pieces are the last bodies.
+    #[getter]
+    fn panes(&self) -> Vec<Pane> {
+        self.panes.clone()
+    }
+
     /// The simulation step [s].
     #[getter]
     fn step_s(&self) -> f64 {
@@ -136,11 +158,12 @@ impl Recording {
         self.inner.warnings.clone()
     }
 
-    /// Wall-clock time of the run's parts [s]: occlusion, load, dynamics.
+    /// Wall-clock time of the run's parts [s]: occlusion, fracture, load, dynamics.
     #[getter]
     fn timing_s<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let timing = PyDict::new(py);
         timing.set_item("occlusion", self.timing.occlusion.as_secs_f64())?;
+        timing.set_item("fracture", self.timing.fracture.as_secs_f64())?;
         timing.set_item("load", self.timing.load.as_secs_f64())?;
         timing.set_item("dynamics", self.timing.dynamics.as_secs_f64())?;
         Ok(timing)

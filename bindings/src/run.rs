@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use engine::scene::Scene;
-use engine::simulation::{Shelters, Simulation};
+use engine::simulation::{Panes, Shelters, Simulation};
 use pyo3::prelude::*;
 
 use crate::recording::{Recording, Timing};
@@ -30,13 +30,18 @@ struct Watch {
 
 /// Runs a scene in a thread of its own while this one listens for Ctrl-C, which Python hands to it alone, and reports
 /// progress.
-pub fn watched(scene: &Scene, threads: Option<usize>, progress: Option<&Py<PyAny>>) -> PyResult<Recording> {
+pub fn watched(
+    scene: &Scene,
+    threads: Option<usize>,
+    most_pieces: usize,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<Recording> {
     let watch = Watch::default();
     let (working, ended) = mpsc::channel::<()>();
     thread::scope(|scope| {
         let worker = scope.spawn(|| {
             let _working = working;
-            pooled(threads, || run(scene, &watch))
+            pooled(threads, || run(scene, most_pieces, &watch))
         });
         let mut interruption = None;
         while ended.recv_timeout(HEARTBEAT) == Err(RecvTimeoutError::Timeout) {
@@ -76,18 +81,21 @@ fn pooled(threads: Option<usize>, work: impl FnOnce() -> PyResult<Recording> + S
     pool.map_err(|e| InputError::new_err(format!("{count} threads could not be started: {e}")))?.install(work)
 }
 
-fn run(scene: &Scene, watch: &Watch) -> PyResult<Recording> {
+fn run(scene: &Scene, most_pieces: usize, watch: &Watch) -> PyResult<Recording> {
     let start = Instant::now();
     let shelters = Shelters::find(scene).map_err(refused)?;
     let occlusion = start.elapsed();
+    let panes = Panes::find(scene, &shelters, most_pieces, &mut || watch.goes_on()).map_err(refused)?;
+    let fracture = start.elapsed() - occlusion;
     let simulation =
-        Simulation::prepare_sheltered(scene, shelters, &mut || watch.goes_on()).map_err(refused)?;
-    let load = start.elapsed() - occlusion;
+        Simulation::prepare_broken(scene, shelters, &panes, &mut || watch.goes_on()).map_err(refused)?;
+    let load = start.elapsed() - occlusion - fracture;
     let recorded = simulation.run(&mut |done, total| {
         watch.done.store(done, Relaxed);
         watch.total.store(total, Relaxed);
         watch.goes_on()
     });
-    let dynamics = start.elapsed() - occlusion - load;
-    Ok(Recording::new(recorded.map_err(refused)?, Timing { occlusion, load, dynamics }))
+    let dynamics = start.elapsed() - occlusion - fracture - load;
+    let timing = Timing { occlusion, fracture, load, dynamics };
+    Ok(Recording::new(recorded.map_err(refused)?, panes.panes, timing))
 }

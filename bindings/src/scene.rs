@@ -9,7 +9,9 @@ use engine::geometry::{MassProperties, TriangleMesh};
 use engine::loading::Clearing;
 use engine::occlusion::{Attenuation, Per, Settings as Occlusion, Shelter};
 use engine::scene::{Body, Dynamics, Loading, Scene as EngineScene, Shape, Time};
-use engine::simulation::{Shelters, seen_from};
+use engine::material::GLASS;
+use engine::simulation::{Shelters, seen_from, standing};
+use engine::window::{Release, Window};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -17,6 +19,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{floats, quaternion, quaternions, rows_of_three, same_length, vectors};
 use crate::blast::{Source, burst, drag, loading_mode, pulse_shape};
+use crate::fracture::{RecipeArgument, polygon};
 use crate::recording::Recording;
 use crate::{InputError, engine, refused, run};
 
@@ -102,6 +105,7 @@ impl Scene {
             ground: ground.map(|(height, friction)| Ground { height, friction }),
             charges: Vec::new(),
             bodies: Vec::new(),
+            windows: Vec::new(),
             time: Time { duration, frame_rate, step },
             loading: Loading {
                 mode: loading_mode(mode)?,
@@ -189,6 +193,8 @@ impl Scene {
                 friction,
                 drag_coefficient,
                 lift_coefficient,
+                surround: 0.0,
+                hold: None,
             });
         }
         Ok(())
@@ -224,7 +230,64 @@ impl Scene {
             friction,
             drag_coefficient,
             lift_coefficient,
+            surround: 0.0,
+            hold: None,
         });
+        Ok(())
+    }
+
+    /// Adds a pane. `outline` is a list of rings (n, 2) in its own frame [m]; `recipe` says how it breaks, and where it
+    /// gives neither `pieces` nor `critical_length` the load does. `framed`: it stands together with the boxes added
+    /// last.
+    #[pyo3(signature = (*, outline, thickness, position, orientation, strength, may_break, recipe, release, bite,
+        facade, framed, occludes, can_rotate, friction, drag_coefficient, lift_coefficient))]
+    #[allow(clippy::too_many_arguments)]
+    fn add_window(
+        &mut self,
+        outline: Vec<PyReadonlyArray2<'_, f64>>,
+        thickness: f64,
+        position: [f64; 3],
+        orientation: [f64; 4],
+        strength: f64,
+        may_break: bool,
+        recipe: RecipeArgument<'_>,
+        release: &str,
+        bite: Option<f64>,
+        facade: f64,
+        framed: bool,
+        occludes: bool,
+        can_rotate: bool,
+        friction: f64,
+        drag_coefficient: f64,
+        lift_coefficient: Option<f64>,
+    ) -> PyResult<()> {
+        let releases = [("as it cracks", Release::AsItCracks), ("all at once", Release::AllAtOnce)];
+        let (recipe, fine) = recipe.into_engine()?;
+        if !framed {
+            self.assemblies += 1;
+        }
+        let window = Window {
+            outline: polygon(&outline)?,
+            thickness,
+            position: DVec3::from_array(position),
+            orientation: quaternion(orientation),
+            material: GLASS,
+            strength,
+            may_break,
+            recipe,
+            by_load: !fine,
+            release: crate::blast::choose("release", release, &releases)?,
+            bite,
+            facade,
+            assembly: Some(self.assemblies - 1),
+            occludes,
+            can_rotate,
+            friction,
+            drag_coefficient,
+            lift_coefficient,
+        };
+        window.validate().map_err(refused)?;
+        self.scene.windows.push(window);
         Ok(())
     }
 
@@ -236,13 +299,14 @@ impl Scene {
         Ok(rows_of_three(py, centres.into_iter()))
     }
 
-    /// Centres of mass in the world at the start, (bodies, 3) [m].
+    /// Centres of mass in the world at the start, those of whole panes last, (bodies + panes, 3) [m].
     fn middles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let middle = |body: &Body| {
             let own = body.mass_properties().map_err(refused)?.centre;
             Ok(body.position + body.orientation * own)
         };
-        let middles: Vec<DVec3> = self.scene.bodies.iter().map(middle).collect::<PyResult<_>>()?;
+        let standing = standing(&self.scene);
+        let middles: Vec<DVec3> = standing.bodies.iter().map(middle).collect::<PyResult<_>>()?;
         Ok(rows_of_three(py, middles.into_iter()))
     }
 
@@ -262,10 +326,11 @@ impl Scene {
     }
 
     /// How each body is sheltered from a charge: blocking factor, separation, hidden share, attenuation and detour
-    /// [m], (bodies,) each.
+    /// [m], (bodies + panes,) each, those of whole panes last.
     fn shelter<'py>(&self, py: Python<'py>, charge: usize) -> PyResult<Bound<'py, PyDict>> {
         let shelters = py.detach(|| Shelters::find(&self.scene)).map_err(refused)?;
-        let all: Vec<_> = (0..self.scene.bodies.len()).map(|body| shelters.body(charge, body)).collect();
+        let count = self.scene.bodies.len() + self.scene.windows.len();
+        let all: Vec<_> = (0..count).map(|body| shelters.body(charge, body)).collect();
         let result = PyDict::new(py);
         let column = |value: fn(&Shelter) -> f64| PyArray1::from_iter(py, all.iter().map(value));
         result.set_item("hidden", column(|s| s.hidden))?;
@@ -276,15 +341,17 @@ impl Scene {
         Ok(result)
     }
 
-    /// Runs the scene. `progress(done, total)` hears of frames; `threads` bounds the threads used.
-    #[pyo3(signature = (*, threads=None, progress=None))]
+    /// Runs the scene. `progress(done, total)` hears of frames; `threads` bounds the threads used, `most_pieces` how
+    /// many pieces panes may break into.
+    #[pyo3(signature = (*, threads=None, most_pieces=None, progress=None))]
     fn simulate(
         &self,
         py: Python<'_>,
         threads: Option<usize>,
+        most_pieces: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Recording> {
-        py.detach(|| run::watched(&self.scene, threads, progress.as_ref()))
+        py.detach(|| run::watched(&self.scene, threads, most_pieces.unwrap_or(usize::MAX), progress.as_ref()))
     }
 }
 

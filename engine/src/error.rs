@@ -21,6 +21,16 @@ pub enum Error {
     Cancelled,
 }
 
+impl Error {
+    /// The same of one thing among others: `whose` is put before what is wrong.
+    pub(crate) fn about(self, whose: &str) -> Self {
+        match self {
+            Self::Cancelled => self,
+            other => Self::Malformed(format!("{whose}: {other}")),
+        }
+    }
+}
+
 /// Shorthand for results of engine calls.
 pub type Result<T> = core::result::Result<T, Error>;
 

@@ -8,8 +8,10 @@
 //! - [`loading`]: what that pulse does to a piece of surface;
 //! - [`occlusion`]: what shelters behind what, and how much of the blast comes round;
 //! - [`dynamics`]: how bodies stand, slide, fly and land;
+//! - [`fracture`]: how a pane breaks; [`structure`]: how it bends before, and other structures under a load;
+//! - [`window`]: a pane in its frame, as a scene says it;
 //! - [`scene`], [`simulation`], [`recording`]: what a run is given, the run, what it gives back;
-//! - [`structure`], [`detonation`], [`hydrocode`]: the theory beside the simulation, on `air` and `charge` alone.
+//! - [`detonation`], [`hydrocode`]: the theory beside the simulation, on `air` and `charge` alone.
 //!
 //! Units are SI throughout: metres, kilograms, seconds, pascals, kelvins, radians. Axes are right-handed with
 //! y up. Pressures are overpressures, above the ambient one, unless said otherwise.
@@ -36,5 +38,6 @@ mod root;
 pub mod scene;
 pub mod simulation;
 pub mod structure;
+pub mod window;
 
 pub use error::{Error, Result};

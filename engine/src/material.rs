@@ -248,6 +248,9 @@ pub fn stress_intensity(stress: f64, length: f64) -> f64 {
 /// metre of them is a million pieces.
 pub const LEAST_MEAN_AREA: f64 = 1e-6;
 
+/// Peak pressures on windows [Pa] whose fragments were measured (2.46).
+pub const FRAGMENT_PRESSURES: core::ops::RangeInclusive<f64> = 690.0..=689e3;
+
 /// Mean frontal area of the fragments of a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanFragmentArea {
@@ -284,7 +287,7 @@ pub fn mean_fragment_area(pressure: f64) -> Result<MeanFragmentArea> {
 /// [`Error::OutOfRange`] outside the range of the measurements: 690 Pa to 689 kPa, and thicker than 0.762 mm (where
 /// the formula is infinite).
 pub fn mean_fragment_velocity(pressure: f64, thickness: f64) -> Result<f64> {
-    if !(690.0..=689e3).contains(&pressure) {
+    if !FRAGMENT_PRESSURES.contains(&pressure) {
         return Err(Error::OutOfRange {
             what: "peak pressure on the window [Pa]",
             value: pressure,

@@ -37,6 +37,11 @@ pub struct BodyFacts {
     pub peak_load: f64,
     /// Impulse received from all charges, panels and wind together [N s].
     pub impulse: DVec3,
+    /// Of a piece of a pane, the part of that impulse which its pane and the frame took before it was free [N s]; of one
+    /// that stays, all of it.
+    pub held_back: DVec3,
+    /// When a piece of a pane was free [s]; not a number for one that stays, and for other bodies.
+    pub free_time: f64,
     /// Share of the unsheltered load that it receives.
     pub attenuation: f64,
     /// Speed at the end of its loading [m/s]; at the end of the run if that comes first; the highest of them where

@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::air::Air;
 use crate::blast::PulseShape;
 use crate::charge::Charge;
+use crate::dynamics::Hold;
 use crate::dynamics::ground::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
-use crate::geometry::{MassProperties, TriangleMesh};
+use crate::geometry::{MassProperties, Polygon, Sample, TriangleMesh};
 use crate::loading::{Clearing, Drag, LoadingMode};
 use crate::occlusion;
+use crate::window::Window;
 
 /// Everything a run needs to know.
 #[derive(Debug, Clone)]
@@ -24,6 +26,8 @@ pub struct Scene {
     pub charges: Vec<Charge>,
     /// The bodies, in the order in which results are given.
     pub bodies: Vec<Body>,
+    /// Panes that may break; their pieces follow the bodies in results, pane after pane.
+    pub windows: Vec<Window>,
     /// How long, how finely.
     pub time: Time,
     /// How loads are found.
@@ -109,6 +113,11 @@ pub struct Body {
     pub drag_coefficient: f64,
     /// Lift coefficient C_L; left out, it equals C_D for a plate-like piece and is 0 for a chunky one.
     pub lift_coefficient: Option<f64>,
+    /// How far a wall without an opening goes on beyond the outline of its assembly [m]: by so much the relief of
+    /// reflected pressure has farther to come ([`Clearing::Assembly`]).
+    pub surround: f64,
+    /// What holds it before it may move; `None`: only what it stands on.
+    pub hold: Option<Hold>,
 }
 
 /// Shape of a body, in its own frame [m].
@@ -123,7 +132,62 @@ pub enum Shape {
     },
     /// A closed mesh.
     Mesh(Arc<TriangleMesh>),
+    /// A flat piece of even thickness.
+    Flat(Arc<Flat>),
 }
+
+/// A flat piece of even thickness, such as a shard of glass: its faces across z, its origin the centre of mass.
+///
+/// The blast acts on its faces; its edges are too narrow to matter to it, and only add to its drag.
+#[derive(Debug, Clone)]
+pub struct Flat {
+    /// Outline in the plane z = 0 [m], counter-clockwise, holes clockwise.
+    pub outline: Polygon,
+    /// Thickness [m].
+    pub thickness: f64,
+    /// Panels of either face.
+    pub samples: Vec<Sample>,
+    /// Inertia about the centre of mass for a mass of 1 kg [m²].
+    pub inertia: DMat3,
+}
+
+impl Flat {
+    /// Area of either face [m²].
+    pub fn area(&self) -> f64 {
+        self.samples.iter().map(|sample| sample.area).sum()
+    }
+
+    /// The corners farthest out along 16 directions of the plane [m], each once: they stand for its convex outline.
+    pub fn extreme_points(&self) -> Vec<DVec2> {
+        let points = self.outline.points();
+        let mut chosen: Vec<usize> = Vec::with_capacity(16);
+        for (x, y) in DIRECTIONS {
+            let along = |i: &usize| points[*i].x * x + points[*i].y * y;
+            let farthest = (0..points.len()).max_by(|a, b| along(a).total_cmp(&along(b)));
+            let farthest = farthest.expect("an outline has points");
+            if !chosen.contains(&farthest) {
+                chosen.push(farthest);
+            }
+        }
+        chosen.into_iter().map(|i| points[i]).collect()
+    }
+}
+
+/// Sixteen directions around, about evenly.
+const DIRECTIONS: [(f64, f64); 16] = {
+    const EIGHTH: [(f64, f64); 4] = [(1.0, 0.0), (1.0, 0.4), (1.0, 1.0), (0.4, 1.0)];
+    let mut all = [(0.0, 0.0); 16];
+    let mut i = 0;
+    while i < 4 {
+        let (x, y) = EIGHTH[i];
+        all[i] = (x, y);
+        all[i + 4] = (-y, x);
+        all[i + 8] = (-x, -y);
+        all[i + 12] = (y, -x);
+        i += 1;
+    }
+    all
+};
 
 impl Body {
     /// Mass, centre of mass and inertia, in the body's own frame.
@@ -134,6 +198,9 @@ impl Body {
         match &self.shape {
             Shape::Box { size, .. } => Ok(MassProperties::of_box(*size, self.mass)),
             Shape::Mesh(mesh) => Ok(MassProperties::of_mesh(mesh, 1.0)?.with_mass(self.mass)),
+            Shape::Flat(flat) => {
+                Ok(MassProperties { mass: self.mass, centre: DVec3::ZERO, inertia: flat.inertia * self.mass })
+            }
         }
     }
 }
@@ -173,7 +240,8 @@ impl Scene {
         self.occlusion.validate()?;
         not_negative("damping factor", self.dynamics.damping_factor)?;
         not_negative("rotation factor", self.dynamics.rotation_factor)?;
-        self.bodies.iter().try_for_each(Body::validate)
+        self.bodies.iter().try_for_each(Body::validate)?;
+        self.windows.iter().try_for_each(Window::validate)
     }
 }
 
@@ -182,6 +250,7 @@ impl Body {
         positive("body mass [kg]", self.mass)?;
         not_negative("friction", self.friction)?;
         not_negative("drag coefficient", self.drag_coefficient)?;
+        not_negative("wall around the body [m]", self.surround)?;
         if let Some(lift) = self.lift_coefficient {
             not_negative("lift coefficient", lift)?;
         }

@@ -3,6 +3,7 @@
 mod later;
 mod shelter;
 mod targets;
+mod window;
 
 use std::ops::ControlFlow;
 
@@ -13,13 +14,14 @@ use rayon::prelude::*;
 use crate::blast::{BlastField, Extension};
 use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
 use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, LANES, RigidBody, Support, Winds};
+use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, Hold, LANES, RigidBody, Support, Winds};
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
 use later::Later;
 pub use shelter::{Shelters, seen_from};
 use targets::{LoadQueue, Peaks, Shot, Target};
+pub use window::{Fate, Pane, Panes, standing};
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
@@ -63,6 +65,8 @@ enum Phase {
     Standing,
     /// In its place, pushed over its support.
     Sliding,
+    /// Part of a pane, or in its frame.
+    Held,
     /// On its own, with loads still to come.
     Free,
     /// On its own, all loads over.
@@ -87,6 +91,8 @@ struct Life {
     extent: f64,
     /// Friction against the ground.
     ground_friction: f64,
+    /// What holds it until it may move, and where it rests meanwhile.
+    hold: Option<Box<(Hold, (DVec3, DQuat))>>,
     /// For how long it has been lying calmly [s].
     calm: f64,
     /// Impulse of friction in the last step [N s].
@@ -107,23 +113,28 @@ impl Simulation {
     /// # Errors
     /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
     pub fn prepare(scene: &Scene) -> Result<Self> {
-        Self::prepare_sheltered(scene, Shelters::find(scene)?, &mut || ControlFlow::Continue(()))
+        let go_on = &mut || ControlFlow::Continue(());
+        let shelters = Shelters::find(scene)?;
+        let panes = Panes::find(scene, &shelters, usize::MAX, go_on)?;
+        Self::prepare_broken(scene, shelters, &panes, go_on)
     }
 
-    /// Works out all loads of a scene whose shelters are already found; `observer` is asked now and then and may stop
-    /// the work.
+    /// Works out all loads of a scene whose shelters are already found and whose panes are broken; `observer` is asked
+    /// now and then and may stop the work.
     ///
     /// # Errors
     /// As [`prepare`](Self::prepare), and [`Error::Cancelled`] when the observer breaks off.
-    pub fn prepare_sheltered(
+    pub fn prepare_broken(
         scene: &Scene,
         shelters: Shelters,
+        panes: &Panes,
         observer: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Self> {
         scene.validate()?;
+        let (scene, shelters) = &panes.in_pieces(scene, shelters);
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
-        let targets = targets::aim(scene, &fields, &shelters, observer)?;
+        let targets = targets::aim(scene, &fields, shelters, panes.outlines(), observer)?;
         let steps_per_frame = targets::steps_per_frame(scene, &targets);
         let footings: Vec<Footing> = targets
             .iter()
@@ -134,6 +145,7 @@ impl Simulation {
                 centre: target.body.position,
                 mass: body.mass,
                 anchored: body.anchored,
+                held: body.hold.is_some(),
             })
             .collect();
         let height = scene.ground.map(|g| g.height);
@@ -143,12 +155,21 @@ impl Simulation {
         if scene.ground.is_some() {
             let anchored = |index: &usize| scene.bodies[*index].anchored;
             warnings.extend(hanging_warning(
-                (0..footings.len()).filter(|i| !anchored(i) && support.hangs(*i)).count(),
+                (0..footings.len())
+                    .filter(|&i| !anchored(&i) && !footings[i].held && support.hangs(i))
+                    .count(),
             ));
         }
         let bodies: Vec<RigidBody> = targets.iter().map(|target| target.body).collect();
         let phases =
-            footings.iter().map(|f| if f.anchored { Phase::Anchored } else { Phase::Standing }).collect();
+            footings
+            .iter()
+            .map(|f| match (f.anchored, f.held) {
+                (true, _) => Phase::Anchored,
+                (false, true) => Phase::Held,
+                (false, false) => Phase::Standing,
+            })
+            .collect();
         let lives = targets
             .into_iter()
             .zip(&scene.bodies)
@@ -165,7 +186,7 @@ impl Simulation {
                 } else {
                     on_carriers.sum()
                 };
-                Life::new(target, in_place, on_ground)
+                Life::new(target, body.hold.clone(), in_place, on_ground)
             })
             .collect();
         Ok(Self {
@@ -173,7 +194,7 @@ impl Simulation {
             phases,
             lives,
             support,
-            later: Later::new(scene, fields, shelters),
+            later: Later::new(scene, fields, shelters.clone()),
             world: World {
                 ground: scene.ground,
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
@@ -345,6 +366,9 @@ impl World {
                 life.rubbed = DVec3::ZERO;
                 continue;
             }
+            if *phase == Phase::Held && !life.is_stirred(t0, t1) {
+                continue;
+            }
             let mut body = block.get(lane);
             gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
             block.set(lane, &body);
@@ -365,6 +389,7 @@ impl World {
         let concern = match phase {
             Phase::Flying => return self.land(body, life, t1 - t0),
             Phase::Free => self.fly_loaded(body, life, t0, t1),
+            Phase::Held => self.hold(body, life, t0, t1),
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
@@ -391,6 +416,30 @@ impl World {
         body.push(impulse, angular);
         let winds = Winds { winds: &queue.winds, air: self.air };
         body.world_from_principal * impulse + body.blow(winds, t0, t1)
+    }
+
+    /// A step of a piece that is held, to its end or until it is free and on from there.
+    fn hold(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
+        let (hold, rest) = &**life.hold.as_ref().expect("it is held");
+        // What is in pieces already goes when the front comes.
+        let until = hold.until.max(life.queue.start);
+        let end = until.clamp(t0, t1);
+        let (impulse, _) = life.queue.take(t0, end, false);
+        let received = body.world_from_principal * impulse;
+        life.facts.impulse += received;
+        life.facts.held_back += received;
+        hold.place(body, rest, end);
+        if until > t1 {
+            return Concern::Nothing;
+        }
+        life.facts.held_back -= body.velocity / body.inverse_mass;
+        life.facts.free_time = until;
+        life.hold = None;
+        if end < t1 {
+            self.fly_loaded(body, life, end, t1);
+        }
+        life.change = Some(Phase::Free);
+        Concern::Settles
     }
 
     fn stand(
@@ -456,7 +505,7 @@ impl World {
 
 impl Life {
     /// `in_place` is the friction where the body stands at the start, `on_ground` against the ground.
-    fn new(target: Target, in_place: f64, on_ground: f64) -> Self {
+    fn new(target: Target, hold: Option<Hold>, in_place: f64, on_ground: f64) -> Self {
         let (low, high) = target.bounds;
         let extent = (high.x - low.x).min(high.z - low.z);
         Self {
@@ -469,11 +518,21 @@ impl Life {
             object_from_principal: target.object_from_principal,
             extent,
             ground_friction: on_ground,
+            hold: hold.map(|hold| {
+                let rest = (target.body.position, target.body.world_from_principal);
+                Box::new((hold, rest))
+            }),
             calm: 0.0,
             rubbed: DVec3::ZERO,
             change: None,
             facts: target.facts,
         }
+    }
+
+    /// Whether anything happens to a held piece between two times.
+    fn is_stirred(&self, t0: f64, t1: f64) -> bool {
+        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until.max(self.queue.start) <= t1;
+        self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
     }
 
     /// Takes a charge's loads anew.

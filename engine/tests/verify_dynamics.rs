@@ -204,7 +204,7 @@ fn a_pushed_block_slides_its_closed_form_distance_for_any_step() {
 /// A cube of 1 m and 10 kg with its corner at `x`, `y`.
 fn cube(x: f64, y: f64) -> Footing {
     let (low, high) = (DVec3::new(x, y, 0.0), DVec3::new(x + 1.0, y + 1.0, 1.0));
-    Footing { low, high, centre: (low + high) * 0.5, mass: 10.0, anchored: false }
+    Footing { low, high, centre: (low + high) * 0.5, mass: 10.0, anchored: false, held: false }
 }
 
 fn leaving(mut support: Support, body: usize) -> Vec<usize> {

@@ -28,9 +28,11 @@ if TYPE_CHECKING:
         Pattern,
         Scene,
         Time,
+        Window,
+        WindowPattern,
     )
     from brisance.pane import Fracture, fracture
-    from brisance.result import Bodies, Result
+    from brisance.result import Bodies, Pane, Result
     from brisance.scene_file import load
     from brisance.simulation import simulate
 
@@ -49,9 +51,12 @@ _HOME = {
     "Pattern": "model",
     "Scene": "model",
     "Time": "model",
+    "Window": "model",
+    "WindowPattern": "model",
     "Fracture": "pane",
     "fracture": "pane",
     "Bodies": "result",
+    "Pane": "result",
     "Result": "result",
     "load": "scene_file",
     "simulate": "simulation",
@@ -71,10 +76,13 @@ __all__ = [
     "Loading",
     "MeshObject",
     "Occlusion",
+    "Pane",
     "Pattern",
     "Result",
     "Scene",
     "Time",
+    "Window",
+    "WindowPattern",
     "__version__",
     "fracture",
     "load",

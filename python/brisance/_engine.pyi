@@ -12,6 +12,7 @@ _Source: TypeAlias = str | Mapping[str, NDArray[float64]]
 
 __all__ = [
     "FracturePattern",
+    "Pane",
     "Pieces",
     "Recording",
     "Scene",
@@ -265,13 +266,64 @@ class Scene:
         drag_coefficient: float,
         lift_coefficient: float | None,
     ) -> None: ...
+    def add_window(
+        self,
+        *,
+        outline: list[NDArray[float64]],
+        thickness: float,
+        position: tuple[float, float, float],
+        orientation: tuple[float, float, float, float],
+        strength: float,
+        may_break: bool,
+        recipe: Mapping[str, Any],
+        release: Literal["as it cracks", "all at once"],
+        bite: float | None,
+        facade: float,
+        framed: bool,
+        occludes: bool,
+        can_rotate: bool,
+        friction: float,
+        drag_coefficient: float,
+        lift_coefficient: float | None,
+    ) -> None: ...
     def centres_of_mass(self) -> NDArray[float64]: ...
     def middles(self) -> NDArray[float64]: ...
     def seen_from(self, charge: int) -> tuple[NDArray[int64], NDArray[float64]]: ...
     def shelter(self, charge: int) -> dict[str, NDArray[float64]]: ...
     def simulate(
-        self, *, threads: int | None = None, progress: Callable[[int, int], None] | None = None
+        self,
+        *,
+        threads: int | None = None,
+        most_pieces: int | None = None,
+        progress: Callable[[int, int], None] | None = None,
     ) -> Recording: ...
+
+@final
+class Pane:
+    @property
+    def fate(self) -> Literal["holds", "fails", "in pieces"]: ...
+    @property
+    def failure_time_s(self) -> float | None: ...
+    @property
+    def failure_place_m(self) -> tuple[float, float] | None: ...
+    @property
+    def peak_pressure_pa(self) -> float: ...
+    @property
+    def peak_stress_pa(self) -> float: ...
+    @property
+    def staying(self) -> int: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def pattern(self) -> FracturePattern: ...
+    @property
+    def pieces(self) -> Pieces: ...
+    @property
+    def frequency_rad_s(self) -> float: ...
+    @property
+    def stress_per_pressure(self) -> float: ...
+    def deflection(self, places: NDArray[float64]) -> NDArray[float64]: ...
+    def amplitude(self, times: list[float]) -> NDArray[float64]: ...
 
 @final
 class Recording:
@@ -302,32 +354,19 @@ class Recording:
     @property
     def rest_time_s(self) -> NDArray[float64]: ...
     @property
+    def held_back_n_s(self) -> NDArray[float64]: ...
+    @property
+    def free_time_s(self) -> NDArray[float64]: ...
+    @property
+    def panes(self) -> list[Pane]: ...
+    @property
     def step_s(self) -> float: ...
     @property
     def warnings(self) -> list[str]: ...
     @property
     def timing_s(self) -> dict[str, float]: ...
 
-def fracture(
-    *,
-    outline: list[NDArray[float64]],
-    glass: Literal["annealed", "tempered", "laminated"],
-    pieces: int | None,
-    critical_length: float | None,
-    seeds: NDArray[float64],
-    starts: int | None,
-    shape: Literal["segment", "cross", "star"],
-    literal: bool,
-    fork_angle: float,
-    fork_variance: float,
-    wiggle_probability: float,
-    wiggle_variance: float,
-    wiggle_spacing: float | None,
-    rings: float,
-    reach: float | None,
-    toward: float | None,
-    seed: int,
-) -> FracturePattern: ...
+def fracture(*, outline: list[NDArray[float64]], recipe: Mapping[str, Any]) -> FracturePattern: ...
 def fracture_stages(outline: list[NDArray[float64]], pattern: FracturePattern) -> tuple[float, float]: ...
 
 @final

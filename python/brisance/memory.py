@@ -39,6 +39,16 @@ def check_fits(frames: int, pieces: int) -> None:
         )
 
 
+def most_pieces(frames: int, others: int) -> int | None:
+    """How many pieces panes may break into, beside ``others``, so that ``frames`` of them fit in memory; None where
+    the system does not tell.
+    """
+    available = available_bytes()
+    if available is None:
+        return None
+    return max(0, (available - frames * 8) // (frames * BYTES_A_POSE + BYTES_A_PIECE) - others)
+
+
 def check_pieces_fit(pieces: float, *, vertices: float = 0, asked_by: str) -> None:
     """Raise :class:`ArgumentError`, saying how much is needed, unless a broken pane fits in memory.
 

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from brisance import _engine
 from brisance.errors import ArgumentError, InputError
 from brisance.memory import check_pieces_fit
-from brisance.model.pattern import Pattern
+from brisance.model.pattern import Cracks, Pattern
 from brisance.piece import PieceMesh
 from brisance.prisms import piece_meshes
 
@@ -170,38 +171,21 @@ def fracture(
     holes. The same arguments give the same bytes. Raises :class:`InputError` for what cannot be broken.
     """
     pattern = pattern or Pattern()
-    rings = _rectangle(width, height) if outline is None else _rings(outline)
-    area = sum(_area(ring) for ring in rings)
+    rings = rectangle(width, height) if outline is None else oriented(outline)
+    area = sum(ring_area(ring) for ring in rings)
     _check_positive("thickness", thickness)
     if not (math.isfinite(area) and area > 0):
         raise ArgumentError("outline", f"must enclose a finite area above 0, not {area:g} m².")
     if not 0 <= seed < 2**63:
         raise ArgumentError("seed", f"must be a whole number from 0 to 2⁶³ − 1, not {seed}.")
     pattern = _resolved(pattern, area)
-    pieces = pattern.pieces
     low, high = rings[0].min(axis=0), rings[0].max(axis=0)
     seeds = low + np.array(pattern.seeds, dtype=float).reshape(-1, 2) * (high - low)
-    _check_size(pattern, area, longer_side=float((high - low).max()), pieces=pieces)
-    _check_seeds(pattern, rings, seeds)
+    _check_size(pattern, area, longer_side=float((high - low).max()), pieces=pattern.pieces)
+    check_seeds(pattern, rings, seeds)
     try:
         engine = _engine.fracture(
-            outline=rings,
-            glass=pattern.glass,
-            pieces=pieces,
-            critical_length=pattern.critical_length,
-            seeds=seeds,
-            starts=pattern.starts,
-            shape=pattern.shape,
-            literal=pattern.literal,
-            fork_angle=math.radians(pattern.fork_angle),
-            fork_variance=math.radians(pattern.fork_variance),
-            wiggle_probability=pattern.wiggle_probability,
-            wiggle_variance=math.radians(pattern.wiggle_variance),
-            wiggle_spacing=pattern.wiggle_spacing,
-            rings=pattern.rings,
-            reach=pattern.reach,
-            toward=None if pattern.toward is None else math.radians(pattern.toward),
-            seed=seed,
+            outline=rings, recipe=recipe(pattern, glass=pattern.glass, seeds=seeds, seed=seed)
         )
     except InputError as error:
         sentence = str(error)
@@ -209,6 +193,28 @@ def fracture(
             raise ArgumentError("outline", f"{sentence.removeprefix('the outline ')}.") from error
         raise InputError(f"{sentence}.") from error
     return Fracture(pattern, rings, thickness, seed, engine)
+
+
+def recipe(cracks: Cracks, *, glass: str, seeds: Array, seed: int) -> dict[str, Any]:
+    """How a pane breaks, as the engine is told; ``seeds`` (n, 2) are in the pane's plane [m]."""
+    return {
+        "glass": glass,
+        "pieces": cracks.pieces,
+        "critical_length": cracks.critical_length,
+        "seeds": seeds,
+        "starts": cracks.starts,
+        "shape": cracks.shape,
+        "literal": cracks.literal,
+        "fork_angle": math.radians(cracks.fork_angle),
+        "fork_variance": math.radians(cracks.fork_variance),
+        "wiggle_probability": cracks.wiggle_probability,
+        "wiggle_variance": math.radians(cracks.wiggle_variance),
+        "wiggle_spacing": cracks.wiggle_spacing,
+        "rings": cracks.rings,
+        "reach": cracks.reach,
+        "toward": None if cracks.toward is None else math.radians(cracks.toward),
+        "seed": seed,
+    }
 
 
 def is_dice(pattern: Pattern) -> bool:
@@ -231,13 +237,14 @@ def _resolved(pattern: Pattern, area: float) -> Pattern:
     return pattern.model_copy(update={"pressure": None, "pieces": max(1, pieces)})
 
 
-def _rectangle(width: float, height: float) -> list[Array]:
+def rectangle(width: float, height: float) -> list[Array]:
+    """The ring of a pane of ``width`` by ``height`` [m], its lower left corner at the origin."""
     _check_positive("width", width)
     _check_positive("height", height)
     return [np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])]
 
 
-def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
+def oriented(outline: Sequence[ArrayLike]) -> list[Array]:
     """Rings as arrays: the first counter-clockwise, others clockwise, a repeated last point dropped."""
     rings = []
     for index, ring in enumerate(outline):
@@ -249,14 +256,14 @@ def _rings(outline: Sequence[ArrayLike]) -> list[Array]:
             raise ArgumentError("outline", "must be rings of three or more points x, y.")
         if np.array_equal(points[0], points[-1]):
             points = points[:-1]
-        turned = (_area(points) > 0) == (index == 0)
+        turned = (ring_area(points) > 0) == (index == 0)
         rings.append(np.ascontiguousarray(points if turned else points[::-1]))
     if not rings:
         raise ArgumentError("outline", "must have at least one ring of points.")
     return rings
 
 
-def _area(ring: Array) -> float:
+def ring_area(ring: Array) -> float:
     x, y = (ring - ring[0]).T
     return float(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
@@ -287,7 +294,7 @@ def _check_size(pattern: Pattern, area: float, *, longer_side: float, pieces: in
         check_pieces_fit(count, vertices=turns, asked_by="wiggle_spacing")
 
 
-def _check_seeds(pattern: Pattern, rings: list[Array], seeds: Array) -> None:
+def check_seeds(pattern: Cracks, rings: list[Array], seeds: Array) -> None:
     """Refuse a start on the border, or in a notch or hole: an odd number of sides must lie to its right."""
     begin = np.concatenate(rings)
     side = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - begin

@@ -54,8 +54,10 @@ class PieceSet:
     """One unique name a piece, such as ``"wall_r0_c1"``."""
     meshes: list[PieceMesh]
     """One mesh a piece; identical pieces hold the same mesh object."""
-    add_to: Callable[[_engine.Scene], None]
-    """Adds the pieces' bodies to an engine scene, in the order of ``names``."""
+    add_to: Callable[[_engine.Scene], None] | None = None
+    """Adds the pieces' bodies to an engine scene, in the order of ``names``; None where the engine has made
+    them itself.
+    """
     warnings: list[str] = field(default_factory=list)
     """One sentence for each approximation that was made of the object."""
     encloses: Callable[[Sequence[float]], bool] | None = None

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from brisance.errors import InputError
-from brisance.model import AnyObject, BrickWall, MeshObject, Scene
+from brisance.model import AnyObject, BrickWall, MeshObject, Scene, Window
 from brisance.piece import PieceSet
 from brisance.rotation import rotate
 
@@ -37,7 +37,7 @@ def ground_warnings(scene: Scene, sets: Sequence[PieceSet], centres: NDArray[np.
     warnings = []
     start = 0
     for obj, group in zip(scene.objects, sets, strict=True):
-        depth = scene.ground.height - _lowest(obj, group, centres[start])
+        depth = scene.ground.height - _lowest(obj, group, centres[start:])
         start += len(group)
         if depth > SUNK and not obj.anchored:
             warnings.append(
@@ -46,10 +46,14 @@ def ground_warnings(scene: Scene, sets: Sequence[PieceSet], centres: NDArray[np.
     return warnings
 
 
-def _lowest(obj: AnyObject, group: PieceSet, centre: NDArray[np.float64]) -> float:
+def _lowest(obj: AnyObject, group: PieceSet, centres: NDArray[np.float64]) -> float:
     """Height [m] of the lowest point of an object."""
     if isinstance(obj, MeshObject):
-        points = group.meshes[0].points + centre
+        points = group.meshes[0].points + centres[0]
+    elif isinstance(obj, Window):
+        # Where a file says the outline, its size is not known here.
+        width, height = obj.size or (0.0, 0.0)
+        points = np.array(list(itertools.product((-0.5, 0.5), repeat=3))) * (width, height, obj.thickness)
     else:
         points = np.array(list(itertools.product((-0.5, 0.5), repeat=3))) * obj.size
         if isinstance(obj, BrickWall):

@@ -6,13 +6,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from brisance.errors import InputError
-from brisance.model import Scene
+from brisance.model import Scene, Window
 from brisance.piece import PieceMesh
 
 TIMINGS = ("load", "occlusion", "fracture", "dynamics", "write", "total")
@@ -27,6 +27,51 @@ class Source:
     material: str
     start: int
     stop: int
+
+
+@dataclass(frozen=True, eq=False)
+class Pane:
+    """What became of the pane of a window. Lengths [m] in the pane's own frame."""
+
+    name: str
+    """Name of the window."""
+    window: Window
+    """The window as the scene has it."""
+    fate: Literal["holds", "fails", "in pieces"]
+    """holds; fails under the load; in pieces before the blast came."""
+    failure_time_s: float | None
+    """When it failed [s]; None if it did not."""
+    failure_place_m: tuple[float, float] | None
+    """Where it failed; None if it did not."""
+    peak_pressure_pa: float
+    """Highest mean pressure on it from one charge [Pa]."""
+    peak_stress_pa: float
+    """Greatest stress in it until it failed [Pa]."""
+    strength_pa: float
+    """Stress at which it fails [Pa]."""
+    start: int
+    """Its pieces are the bodies from here …"""
+    stop: int
+    """… up to, not including, this one."""
+    staying: int
+    """How many of them stay where they are, in the frame or on an interlayer."""
+    mean_area_m2: float
+    """Mean area of its pieces' faces [m²]."""
+    frame_impulse_n_s: tuple[float, float, float]
+    """Impulse that the pane's edges and the frame took, of all that the blast gave its pieces [N s]."""
+    mesh: PieceMesh
+    """The whole pane about the window's position, before it breaks."""
+    deflection: NDArray[np.float64]
+    """Of each point of the mesh, how far it moves along the pane's own +z under a pressure of 1 Pa [m/Pa]."""
+    amplitude: NDArray[np.float64]
+    """(F,) how far it bends at each frame, as the pressure that would bend it as far at rest [Pa]."""
+
+    @property
+    def broken_at_s(self) -> float:
+        """When it stops being one whole [s]: infinite for a pane that holds, 0 for one in pieces before."""
+        if self.fate == "holds":
+            return float("inf")
+        return self.failure_time_s or 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +100,8 @@ class Bodies:
     """(B,) part of the load that reaches it; 1 is unsheltered."""
     launch_speed_m_s: NDArray[np.float64]
     """(B,) its speed when its loading ends [m/s]."""
+    free_time_s: NDArray[np.float64]
+    """(B,) when a piece of a pane was free [s]; not a number where it stays, and for other pieces."""
     rest_time_s: NDArray[np.float64]
     """(B,) when it comes to rest for good [s]: 0 where it never moves, NaN where it never rests."""
     final_position_m: NDArray[np.float64]
@@ -84,6 +131,8 @@ class Result:
     """Facts about each body."""
     step_s: float
     """Step of the integration [s]."""
+    panes: list[Pane] = field(default_factory=list)
+    """What became of the panes of windows."""
     warnings: list[str] = field(default_factory=list)
     """One sentence for each approximation that was made."""
     timing_s: dict[str, float] = field(default_factory=dict)

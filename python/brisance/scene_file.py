@@ -1,7 +1,7 @@
 """Scene files: TOML in, :class:`brisance.model.Scene` out, and back.
 
-In a file, charges are ``[[charge]]`` tables and objects are ``[[block]]``, ``[[brick_wall]]`` and
-``[[mesh]]`` tables; all other keys are those of the model.
+In a file, charges are ``[[charge]]`` tables and objects are ``[[block]]``, ``[[brick_wall]]``,
+``[[mesh]]`` and ``[[window]]`` tables; all other keys are those of the model.
 """
 
 from __future__ import annotations
@@ -17,12 +17,9 @@ from pydantic import Field, ValidationError
 
 from brisance.errors import InputError
 from brisance.formats.atomic import write_text
-from brisance.model import Block, BrickWall, Charge, MeshObject, Scene, SceneSettings
+from brisance.model import Block, BrickWall, Charge, MeshObject, Scene, SceneSettings, Window
 from brisance.sentences import Problem, first_problem
 
-NOT_AVAILABLE = {
-    "window": "a brittle pane ([[window]]) is not available in this version; use [[block]] or [[mesh]]"
-}
 _BARE_WORD = re.compile(r"[A-Za-z][\w./ -]*")
 
 
@@ -33,6 +30,7 @@ class SceneFile(SceneSettings):
     block: list[Block] = Field(default_factory=list, description="Boxes.")
     brick_wall: list[BrickWall] = Field(default_factory=list, description="Walls in running bond.")
     mesh: list[MeshObject] = Field(default_factory=list, description="Meshes from files.")
+    window: list[Window] = Field(default_factory=list, description="Panes that may break.")
 
 
 def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
@@ -45,9 +43,6 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
     path = Path(path)
     data = _parse(path)
     changed = [_apply(data, override) for override in overrides]
-    for table, sentence in NOT_AVAILABLE.items():
-        if table in data:
-            raise InputError(f"{path}: {sentence}.")
     try:
         wire = SceneFile.model_validate(data)
     except ValidationError as error:
@@ -60,7 +55,7 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
             {
                 **settings,
                 "charges": wire.charge,
-                "objects": [*wire.block, *wire.brick_wall, *wire.mesh],
+                "objects": [*wire.block, *wire.brick_wall, *wire.mesh, *wire.window],
                 "base_folder": path.parent,
             }
         )
@@ -78,7 +73,9 @@ def dump(scene: Scene, path: Path | str) -> None:
 
 
 def _keys(part: Any) -> dict[str, Any]:
-    keys: dict[str, Any] = part.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+    keys: dict[str, Any] = part.model_dump(
+        mode="json", by_alias=True, exclude_unset=True, exclude_none=True
+    )
     return keys
 
 
@@ -90,8 +87,15 @@ def _toml(data: dict[str, Any], tables: dict[str, list[dict[str, Any]]]) -> str:
     sections += [(f"[[{kind}]]", table) for kind, rows in tables.items() for table in rows]
     for header, table in sections:
         lines += ["", header]
-        lines += [f"{key} = {json.dumps(value)}" for key, value in table.items() if value is not None]
+        lines += [f"{key} = {_value_text(value)}" for key, value in table.items() if value is not None]
     return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _value_text(value: Any) -> str:
+    """A value as TOML has it: as in JSON, but for tables, which are written in line."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_value_text(part)}" for key, part in value.items()) + " }"
+    return json.dumps(value)
 
 
 def _parse(path: Path) -> dict[str, Any]:

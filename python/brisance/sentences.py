@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 _EXPECTED = {
@@ -89,12 +90,12 @@ def _text(
 ) -> str:
     kind, last = detail["type"], str(key[-1]) if key else ""
     if kind == "extra_forbidden":
-        known = list(owner.model_fields)
+        known = list(_keys(owner))
         guess = nearest(last, known)
         hint = f"did you mean {guess}?" if guess else f"known here: {', '.join(known)}"
         return f"is not a known key; {hint}"
-    if kind == "missing" and last in owner.model_fields:
-        return f"is missing: {_first_clause(owner.model_fields[last].description)}"
+    if kind == "missing" and last in _keys(owner):
+        return f"is missing: {_first_clause(_keys(owner)[last].description)}"
     if kind == "value_error":
         return str(detail.get("ctx", {}).get("error", detail["msg"]))
     if isinstance(detail["input"], float) and not math.isfinite(detail["input"]):
@@ -124,14 +125,19 @@ def _locate(model: type[BaseModel], detail: ErrorDetails) -> tuple[tuple[str | i
     for part in detail["loc"]:
         if isinstance(part, int):
             key.append(part)
-        elif part in current.model_fields:
+        elif part in _keys(current):
             key.append(part)
             owner = current
-            current = _model_in(current.model_fields[part].annotation) or current
+            current = _model_in(_keys(current)[part].annotation) or current
     if detail["type"] == "extra_forbidden":
         key.append(detail["loc"][-1])
         owner = current
     return tuple(key), owner
+
+
+def _keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """The fields of a model by the keys that a user writes."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
 def _model_in(annotation: Any) -> type[BaseModel] | None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -15,12 +17,12 @@ from brisance import _engine
 from brisance.curve_table import curve_source
 from brisance.errors import InputError
 from brisance.interrupt import if_stopped, restore_terminal
-from brisance.memory import check_fits
-from brisance.model import Scene, object_keys
+from brisance.memory import check_fits, most_pieces
+from brisance.model import AnyObject, Scene, Window
 from brisance.objects import pieces
 from brisance.piece import PieceMesh, PieceSet
 from brisance.placement import check_charges, ground_warnings
-from brisance.result import Bodies, Result, Source
+from brisance.result import Bodies, Pane, Result, Source
 
 MAX_STEPS = 10**10
 """Steps of integration beyond which a run would take days, so that the step is surely a slip."""
@@ -34,6 +36,9 @@ class Built:
 
     engine: _engine.Scene
     sets: list[PieceSet]
+    """One an object: its pieces, or of a window those of its frame."""
+    windows: list[Window]
+    """The windows; whole panes stand after all other bodies, and after a run their pieces."""
     warnings: list[str]
 
     @property
@@ -62,8 +67,12 @@ def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None
     _check_step(scene)
     built = build(scene)
     ready = time.perf_counter()
-    with _Progress(progress) as bar:
-        recording = built.engine.simulate(threads=threads, progress=bar.update if progress else None)
+    with _Progress(progress) as bar, _naming(built.windows):
+        recording = built.engine.simulate(
+            threads=threads,
+            most_pieces=most_pieces(scene.time.frames, len(built.names)),
+            progress=bar.update if progress else None,
+        )
     result = _result(scene, built, recording)
     result.timing_s = {
         **recording.timing_s,
@@ -103,16 +112,43 @@ def build(scene: Scene) -> Built:
                 gain=charge.gain,
                 source=_source(scene, number),
             )
-        sets = [pieces(obj, base_folder=scene.base_folder) for obj in scene.objects]
+        sets = [
+            pieces(obj, base_folder=scene.base_folder, seed=seed) for obj, seed in _seeded(scene)
+        ]
         for group in sets:
-            group.add_to(engine)
+            if group.add_to is not None:
+                group.add_to(engine)
         centres = engine.centres_of_mass()
     except ValueError as error:
         raise InputError(str(error)) from error
     check_charges(scene, sets)
-    built = Built(engine, sets, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
-    _check_names(scene, built)
+    windows = [obj for obj in scene.objects if isinstance(obj, Window)]
+    built = Built(engine, sets, windows, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
+    _check_names(built)
     return built
+
+
+def _seeded(scene: Scene) -> Iterator[tuple[AnyObject, int]]:
+    """Objects, each window with a seed of its own, the first one with the scene's."""
+    seed = scene.seed
+    for obj in scene.objects:
+        yield obj, seed
+        seed = (seed + isinstance(obj, Window)) % 2**63
+
+
+@contextmanager
+def _naming(windows: list[Window]) -> Iterator[None]:
+    """Put a window's name in the place of its number in what the engine refuses."""
+    try:
+        yield
+    except InputError as error:
+        found = re.match(r"window (\d+): ", str(error))
+        if found is None:
+            raise
+        number = int(found[1])
+        sentence = str(error)[found.end() :]
+        joint = " " if sentence.startswith("would ") else ": "
+        raise InputError(f"window.{number} ({windows[number].name}){joint}{sentence}.") from None
 
 
 def _source(scene: Scene, number: int) -> str | dict[str, NDArray[np.float64]]:
@@ -131,17 +167,17 @@ def _check_step(scene: Scene) -> None:
         )
 
 
-def _check_names(scene: Scene, built: Built) -> None:
+def _check_names(built: Built) -> None:
     """Pieces go by name in every output, so no two may share one (a block may be called what a brick is)."""
     owner: dict[str, str] = {}
-    for key, group in zip(object_keys(scene.objects), built.sets, strict=True):
+    for group in built.sets:
         for name in group.names:
             if name in owner:
                 raise InputError(
-                    f"{key}: its piece {name!r} has the name of a piece of {owner[name]}; "
+                    f"{group.name}: its piece {name!r} has the name of a piece of {owner[name]}; "
                     "rename one of the objects."
                 )
-            owner[name] = key
+            owner[name] = group.name
 
 
 def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
@@ -158,13 +194,15 @@ def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
 
 
 def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
+    panes = _panes(scene, built, recording)
+    sets = [*(group for group in built.sets if len(group)), *(group for group, _ in panes)]
     sources, start = [], 0
-    for group in built.sets:
+    for group in sets:
         sources.append(Source(group.name, group.material, start, start + len(group)))
         start += len(group)
     bodies = Bodies(
-        names=built.names,
-        source=[group.name for group in built.sets for _ in group.names],
+        names=[name for group in sets for name in group.names],
+        source=[group.name for group in sets for _ in group.names],
         mass_kg=recording.mass_kg,
         frontal_area_m2=recording.frontal_area_m2,
         distance_m=recording.distance_m,
@@ -174,20 +212,61 @@ def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
         impulse_n_s=recording.impulse_n_s,
         attenuation=recording.attenuation,
         launch_speed_m_s=recording.launch_speed_m_s,
+        free_time_s=recording.free_time_s,
         rest_time_s=recording.rest_time_s,
         final_position_m=recording.positions[-1].astype(np.float64),
     )
+    pane_warnings = [warning for group, _ in panes for warning in group.warnings]
     return Result(
         scene=scene,
         times=recording.times,
         positions=recording.positions,
         orientations=recording.orientations,
-        meshes=built.meshes,
+        meshes=[mesh for group in sets for mesh in group.meshes],
         sources=sources,
         bodies=bodies,
         step_s=recording.step_s,
-        warnings=list(dict.fromkeys([*built.warnings, *recording.warnings])),
+        panes=[pane for _, pane in panes],
+        warnings=list(dict.fromkeys([*built.warnings, *pane_warnings, *recording.warnings])),
     )
+
+
+def _panes(scene: Scene, built: Built, recording: _engine.Recording) -> list[tuple[PieceSet, Pane]]:
+    """The pieces of each window, and what became of its pane."""
+    if not built.windows:
+        return []
+    from brisance.objects.window import glazing, pane_pieces, whole_mesh
+
+    start, found = len(built.names), []
+    held_back, times = recording.held_back_n_s, recording.times.tolist()
+    for window, after in zip(built.windows, recording.panes, strict=True):
+        name = window.name or window.kind
+        group = pane_pieces(window, after, name=name)
+        stop = start + len(group)
+        rings = glazing(window, base_folder=scene.base_folder).rings
+        mesh = whole_mesh(rings, window.thickness)
+        taken = held_back[start:stop].sum(axis=0).tolist()
+        pane = Pane(
+            name=name,
+            window=window,
+            fate=after.fate,
+            failure_time_s=after.failure_time_s,
+            failure_place_m=after.failure_place_m,
+            peak_pressure_pa=after.peak_pressure_pa,
+            peak_stress_pa=after.peak_stress_pa,
+            strength_pa=window.limit,
+            start=start,
+            stop=stop,
+            staying=after.staying,
+            mean_area_m2=float(after.pieces.area_m2.mean()),
+            frame_impulse_n_s=(taken[0], taken[1], taken[2]),
+            mesh=mesh,
+            deflection=after.deflection(mesh.points[:, :2].astype(np.float64)),
+            amplitude=after.amplitude(times),
+        )
+        found.append((group, pane))
+        start = stop
+    return found
 
 
 class _Progress:

@@ -4,6 +4,7 @@
 //! - [`Bodies`]: all bodies of a run, laid out so that several fly at once;
 //! - [`Support`]: what stands on what, and with which weight (thesis 3.6);
 //! - [`standing`]: friction that must be exceeded;
+//! - [`Hold`]: pieces of a pane before they are free (thesis 6.7);
 //! - [`ground`]: a plane that bodies fall on.
 //!
 //! Each body moves on its own within a step; only what stands on what couples them, and that is settled between
@@ -13,11 +14,13 @@
 mod bodies;
 mod body;
 pub mod ground;
+mod hold;
 pub mod standing;
 mod support;
 
 pub use bodies::{Block, Bodies, LANES};
 pub use body::{Air, RigidBody, Winds};
+pub use hold::{Bowing, Displacement, Hold, Swing};
 pub use support::{Carry, Footing, Support};
 
 /// Acceleration of free fall [m/s²], along −y.

@@ -25,6 +25,8 @@ pub struct Footing {
     pub mass: f64,
     /// Whether the body never moves.
     pub anchored: bool,
+    /// Whether something else holds it, so that it neither stands on anything nor carries anything.
+    pub held: bool,
 }
 
 /// How a standing body is carried during a step.
@@ -64,7 +66,7 @@ impl Support {
     /// is shared in proportion to the overlap.
     pub fn new(footings: &[Footing], ground: Option<f64>) -> Self {
         let count = footings.len();
-        let mut by_top: Vec<usize> = (0..count).collect();
+        let mut by_top: Vec<usize> = (0..count).filter(|&body| !footings[body].held).collect();
         by_top.sort_by(|&a, &b| footings[a].high.y.total_cmp(&footings[b].high.y).then(a.cmp(&b)));
         let carriers: Vec<Vec<(usize, f64)>> =
             (0..count).map(|body| carriers_of(body, footings, &by_top)).collect();
@@ -210,6 +212,9 @@ impl Support {
 /// Bodies whose top is at the bottom of `body` and below it, with their shares of its weight.
 fn carriers_of(body: usize, footings: &[Footing], by_top: &[usize]) -> Vec<(usize, f64)> {
     let foot = footings[body];
+    if foot.held {
+        return Vec::new();
+    }
     let first = by_top.partition_point(|&i| footings[i].high.y < foot.low.y - JOINT);
     let mut carriers: Vec<(usize, f64)> = by_top[first..]
         .iter()

@@ -18,10 +18,17 @@ pub enum Clearing {
 }
 
 impl Clearing {
-    /// Clearing length of a panel [m], given the outlines of its piece and of its assembly.
-    pub fn length(self, panel_centre: DVec3, piece_half_width: f64, assembly: &Outline) -> f64 {
+    /// Clearing length of a panel [m], given the outlines of its piece and of its assembly, and how far a wall around
+    /// the assembly goes on [m].
+    pub fn length(
+        self,
+        panel_centre: DVec3,
+        piece_half_width: f64,
+        assembly: &Outline,
+        surround: f64,
+    ) -> f64 {
         match self {
-            Self::Assembly => assembly.distance_to_edge(panel_centre).max(piece_half_width),
+            Self::Assembly => assembly.distance_to_edge(panel_centre).max(piece_half_width) + surround,
             Self::Piece => piece_half_width,
             Self::Length(length) => length,
         }

@@ -13,4 +13,4 @@ mod panel;
 pub use clearing::Clearing;
 pub use drag::{Resistance, Wind};
 pub use history::{Drag, Face, FaceHistory, HistorySettings, LoadingMode};
-pub use panel::{BoxFace, Panel, box_panels, mesh_panels};
+pub use panel::{BoxFace, Panel, box_panels, flat_panels, mesh_panels};

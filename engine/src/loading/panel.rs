@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3Swizzles};
 
-use crate::geometry::TriangleMesh;
+use crate::geometry::{Sample, TriangleMesh};
 
 /// A plane piece of a body's surface. Forces act at its centre (thesis 3.5.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +70,19 @@ pub fn box_panels(size: DVec3, buried: [bool; 6]) -> Vec<Panel> {
         }
     }
     panels
+}
+
+/// Panels of a flat piece `thickness` [m] thick about the origin, its faces across z: those of the face toward +z, then
+/// as many of the other.
+pub fn flat_panels(thickness: f64, samples: &[Sample]) -> Vec<Panel> {
+    let face = |normal: DVec3| {
+        samples.iter().map(move |sample| Panel {
+            centre: sample.centre.extend(0.0) + normal * (0.5 * thickness),
+            normal,
+            area: sample.area,
+        })
+    };
+    face(DVec3::Z).chain(face(DVec3::NEG_Z)).collect()
 }
 
 /// Above this many triangles a mesh is loaded on merged panels.

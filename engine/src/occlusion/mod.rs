@@ -108,7 +108,8 @@ impl Shelter {
 pub struct Sheltered {
     /// One a body, in order.
     pub bodies: Vec<Shelter>,
-    /// With [`Per::Panel`], one a surface point of each body, in order; else none.
+    /// With [`Per::Panel`], or for a solid read [by point](Solid::by_point), one a surface point of each body, in order;
+    /// else none.
     pub panels: Vec<Vec<Shelter>>,
     /// Share of the directions into the open, those not into the ground, in which a body stands.
     pub enclosed: f64,
@@ -123,8 +124,8 @@ pub struct Sheltered {
 pub fn shelter(solids: &[Solid], eye: DVec3, ground: Option<f64>, settings: &Settings) -> Result<Sheltered> {
     settings.validate()?;
     let open = |solid: &Solid| match settings.per {
-        Per::Body => Vec::new(),
-        Per::Panel => vec![Shelter::NONE; solid.points.len()],
+        Per::Body if !solid.by_point => Vec::new(),
+        _ => vec![Shelter::NONE; solid.points.len()],
     };
     let views: Vec<View> = solids.par_iter().map(|solid| View::new(&solid.form, eye)).collect();
     refuse_inside(solids, &views)?;

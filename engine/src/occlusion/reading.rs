@@ -156,7 +156,7 @@ impl Reader<'_> {
         } else {
             Shelter::NONE
         };
-        if self.settings.per == Per::Body {
+        if self.settings.per == Per::Body && !solid.by_point {
             return (body, Vec::new());
         }
         desk.samples.clear();

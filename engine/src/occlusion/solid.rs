@@ -17,6 +17,8 @@ pub struct Solid {
     pub occludes: bool,
     /// Where its shelter is read when asked per panel, or when it is too small for the map.
     pub points: Vec<SurfacePoint>,
+    /// Whether shelter is read at each of its points whatever the settings say.
+    pub by_point: bool,
 }
 
 /// A place on a body's surface that stands for some area around it.

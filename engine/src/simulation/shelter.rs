@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::error::Result;
-use crate::geometry::TriangleMesh;
-use crate::loading::{box_panels, mesh_panels};
+use crate::geometry::{PieceMeshes, TriangleMesh, Triangulator};
+use super::window::standing;
+use crate::loading::{box_panels, flat_panels, mesh_panels};
 use crate::occlusion::{Form, Shelter, Sheltered, Solid, SurfacePoint, first_seen, shelter};
-use crate::scene::{Body, Scene, Shape};
+use crate::scene::{Body, Flat, Scene, Shape};
 
 /// Bodies that stand alone are numbered from here among the groups.
 const ALONE: u32 = 1 << 31;
@@ -22,6 +23,10 @@ const ENCLOSED: f64 = 0.9;
 pub struct Shelters {
     /// One a charge; none where shelter is switched off.
     charges: Vec<Sheltered>,
+    /// Bodies before the pieces of panes.
+    bodies: usize,
+    /// Of each piece of a pane, the whole pane's number among the bodies and the panel of it where the piece is.
+    pieces: Vec<(usize, usize)>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -35,8 +40,8 @@ impl Shelters {
         if !scene.occlusion.enabled {
             return Ok(Self::default());
         }
-        let solids = solids(scene)?;
-        let mut found = Self::default();
+        let solids = solids(&standing(scene))?;
+        let mut found = Self { bodies: scene.bodies.len(), ..Self::default() };
         for (index, charge) in scene.charges.iter().enumerate() {
             let ground = scene.ground.map(|ground| ground.height);
             let seen = shelter(&solids, charge.position, ground, &scene.occlusion)?;
@@ -54,13 +59,31 @@ impl Shelters {
 
     /// Shelter of a body from a charge.
     pub fn body(&self, charge: usize, body: usize) -> Shelter {
-        self.charges.get(charge).map_or(Shelter::NONE, |seen| seen.bodies[body])
+        match self.piece(body) {
+            Some((pane, panel)) => self.read(charge, pane, Some(panel)),
+            None => self.read(charge, body, None),
+        }
+    }
+
+    /// Puts pieces after the bodies, in place of whole panes; see the field.
+    pub(super) fn with_pieces(mut self, bodies: usize, pieces: Vec<(usize, usize)>) -> Self {
+        (self.bodies, self.pieces) = (bodies, pieces);
+        self
     }
 
     /// Shelter of a body's panel from a charge: its own, or the body's.
     pub(super) fn panel(&self, charge: usize, body: usize, panel: usize) -> Shelter {
-        let own = self.charges.get(charge).and_then(|seen| seen.panels[body].get(panel).copied());
-        own.unwrap_or_else(|| self.body(charge, body))
+        let (body, panel) = self.piece(body).unwrap_or((body, panel));
+        self.read(charge, body, Some(panel))
+    }
+
+    fn piece(&self, body: usize) -> Option<(usize, usize)> {
+        self.pieces.get(body.checked_sub(self.bodies)?).copied()
+    }
+
+    fn read(&self, charge: usize, body: usize, panel: Option<usize>) -> Shelter {
+        let Some(seen) = self.charges.get(charge) else { return Shelter::NONE };
+        panel.and_then(|panel| seen.panels[body].get(panel).copied()).unwrap_or(seen.bodies[body])
     }
 }
 
@@ -70,7 +93,7 @@ impl Shelters {
 /// As [`Shelters::find`].
 pub fn seen_from(scene: &Scene, charge: usize) -> Result<Vec<Option<(usize, f64)>>> {
     scene.validate()?;
-    first_seen(&solids(scene)?, scene.charges[charge].position, scene.occlusion.resolution)
+    first_seen(&solids(&standing(scene))?, scene.charges[charge].position, scene.occlusion.resolution)
 }
 
 fn solids(scene: &Scene) -> Result<Vec<Solid>> {
@@ -84,6 +107,11 @@ fn solid(body: &Body, index: usize) -> Result<Solid> {
             let world_from_box = DMat3::from_quat(body.orientation);
             let form = Form::Box { centre: body.position, half: *size * 0.5, world_from_box };
             (form, box_panels(*size, *buried))
+        }
+        Shape::Flat(flat) => {
+            let mut mesh = prism(flat)?;
+            mesh.vertices.iter_mut().for_each(|v| *v = into_world(*v));
+            (Form::Mesh(Arc::new(mesh)), flat_panels(flat.thickness, &flat.samples))
         }
         Shape::Mesh(mesh) => {
             let vertices = mesh.vertices.iter().map(|&v| into_world(v)).collect();
@@ -102,5 +130,14 @@ fn solid(body: &Body, index: usize) -> Result<Solid> {
         })
         .collect();
     let group = body.assembly.unwrap_or(ALONE + index as u32);
-    Ok(Solid { form, group, occludes: body.occludes, points })
+    let by_point = matches!(body.shape, Shape::Flat(_));
+    Ok(Solid { form, group, occludes: body.occludes, points, by_point })
+}
+
+fn prism(flat: &Flat) -> Result<TriangleMesh> {
+    let mut triangles = Vec::new();
+    Triangulator::default().triangulate(&flat.outline, &mut triangles)?;
+    let mut meshes = PieceMeshes::default();
+    meshes.push_prism(&flat.outline, &triangles, DVec2::ZERO, flat.thickness);
+    Ok(meshes.piece(0).to_mesh())
 }

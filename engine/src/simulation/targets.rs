@@ -12,7 +12,7 @@ use crate::dynamics::RigidBody;
 use crate::error::{Error, Result};
 use crate::geometry::{Outline, PrincipalAxes, Silhouette};
 use crate::loading::{
-    Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, mesh_panels,
+    Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, flat_panels, mesh_panels,
 };
 use crate::occlusion::Shelter;
 use crate::recording::BodyFacts;
@@ -61,6 +61,8 @@ pub(super) struct LoadQueue {
 #[derive(Debug)]
 struct PanelLoad {
     charge: usize,
+    /// Number of the panel on the body.
+    panel: usize,
     history: FaceHistory,
     /// Area × inward normal [m²].
     push: DVec3,
@@ -128,6 +130,23 @@ impl LoadQueue {
         (impulse, angular)
     }
 
+    /// Impulse [N s] of all panels from `t0` to `t1` along an axis of the body's own, each with its weight. Nothing is
+    /// used up.
+    pub fn weighted(&self, t0: f64, t1: f64, axis: DVec3, weight: impl Fn(usize) -> f64) -> f64 {
+        let begun = self.panels.iter().take_while(|load| load.history.arrival() < t1);
+        begun.map(|load| load.history.impulse(t0, t1) * load.push.dot(axis) * weight(load.panel)).sum()
+    }
+
+    /// The highest load of each charge on the whole body along an axis of its own, if all its panels had their highest
+    /// load at once [N].
+    pub fn highest(&self, axis: DVec3) -> f64 {
+        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        for load in &self.panels {
+            *sums.entry(load.charge).or_default() += load.history.peak() * load.push.dot(axis).abs();
+        }
+        sums.into_values().fold(0.0, f64::max)
+    }
+
     /// Whether any load acts between two times.
     pub fn acts(&self, t0: f64, t1: f64) -> bool {
         self.start < t1 && self.end > t0
@@ -159,11 +178,16 @@ struct Geometry {
 /// Bodies made ready between two looks at the observer.
 const BATCH: usize = 2048;
 
-/// Makes every body of a scene ready. The order is that of the scene.
+/// Outlines of what stands together, by the assembly's number, one a charge.
+pub(super) type Outlines = BTreeMap<u32, Vec<Outline>>;
+
+/// Makes every body of a scene ready. The order is that of the scene. `outlines` are those of its assemblies, where
+/// they are known already.
 pub(super) fn aim(
     scene: &Scene,
     fields: &[BlastField],
     shelters: &Shelters,
+    outlines: Option<&Outlines>,
     observer: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Vec<Target>> {
     let mut listen = || if observer().is_break() { Err(Error::Cancelled) } else { Ok(()) };
@@ -172,7 +196,13 @@ pub(super) fn aim(
         geometries.extend(bodies.par_iter().map(Geometry::of).collect::<Result<Vec<_>>>()?);
         listen()?;
     }
-    let outlines = assembly_outlines(scene, fields, &geometries);
+    let found;
+    let outlines = if let Some(known) = outlines {
+        known
+    } else {
+        found = assembly_outlines(scene, fields, &geometries);
+        &found
+    };
     let mut targets = Vec::with_capacity(geometries.len());
     let mut rest = geometries.into_iter();
     while targets.len() < scene.bodies.len() {
@@ -185,7 +215,46 @@ pub(super) fn aim(
         }));
         listen()?;
     }
+    in_time(&targets)?;
     Ok(targets)
+}
+
+/// Refuses loads that begin before the scene does.
+fn in_time(targets: &[Target]) -> Result<()> {
+    let earliest = targets.iter().map(|target| target.queue.start).fold(f64::INFINITY, f64::min);
+    if earliest < 0.0 {
+        return Err(Error::Malformed(format!(
+            "a charge goes off so long before the scene begins that its front has come to a body {:.4} s too early: \
+             let it go off later",
+            -earliest
+        )));
+    }
+    Ok(())
+}
+
+/// Outlines of all assemblies of a scene.
+///
+/// # Errors
+/// As [`aim`].
+pub(super) fn outlines(scene: &Scene, fields: &[BlastField]) -> Result<Outlines> {
+    let geometries: Vec<Geometry> = scene.bodies.par_iter().map(Geometry::of).collect::<Result<_>>()?;
+    Ok(assembly_outlines(scene, fields, &geometries))
+}
+
+/// Makes one body of a scene ready.
+///
+/// # Errors
+/// As [`aim`].
+pub(super) fn aim_one(
+    scene: &Scene,
+    fields: &[BlastField],
+    shelters: &Shelters,
+    outlines: &Outlines,
+    index: usize,
+) -> Result<Target> {
+    let geometry = Geometry::of(&scene.bodies[index])?;
+    let assembly = scene.bodies[index].assembly.map(|id| &outlines[&id][..]);
+    Ok(target(scene, fields, shelters, index, geometry, assembly))
 }
 
 impl Geometry {
@@ -202,6 +271,12 @@ impl Geometry {
                 let centred = mesh.extreme_points().into_iter().map(|p| p - properties.centre).collect();
                 (mesh_panels(mesh, properties.centre), Vec::new(), centred)
             }
+            Shape::Flat(flat) => {
+                let half = 0.5 * flat.thickness;
+                let corners = flat.extreme_points().into_iter();
+                let both = corners.flat_map(|p| [p.extend(half), p.extend(-half)]).collect();
+                (flat_panels(flat.thickness, &flat.samples), Vec::new(), both)
+            }
         };
         let principal =
             |p: Panel| Panel { centre: into_principal * p.centre, normal: into_principal * p.normal, ..p };
@@ -215,6 +290,14 @@ impl Geometry {
                 DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y)
             }
             Shape::Mesh(_) => panels.iter().map(|(p, _)| p.normal.abs() * (0.5 * p.area)).sum(),
+            Shape::Flat(ref flat) => {
+                let faces = (into_principal * DVec3::Z).abs() * flat.area();
+                let edges = flat.outline.sides().map(|(a, b)| {
+                    let area = (b - a).perp().extend(0.0) * (0.5 * flat.thickness);
+                    (into_principal * area).abs()
+                });
+                faces + edges.sum::<DVec3>()
+            }
         };
         let may_turn = body.can_rotate && !body.anchored;
         let state = RigidBody {
@@ -273,7 +356,7 @@ fn assembly_outlines(
     scene: &Scene,
     fields: &[BlastField],
     geometries: &[Geometry],
-) -> BTreeMap<u32, Vec<Outline>> {
+) -> Outlines {
     let mut members: BTreeMap<u32, Vec<&Geometry>> = BTreeMap::new();
     for (body, geometry) in scene.bodies.iter().zip(geometries) {
         if let Some(id) = body.assembly {
@@ -317,6 +400,7 @@ fn target(
         distance: f64::INFINITY,
         arrival_time: f64::INFINITY,
         attenuation: 1.0,
+        free_time: f64::NAN,
         ..BodyFacts::default()
     };
     let mut share = Share::default();
@@ -504,7 +588,8 @@ impl Aim<'_> {
             if shelter.attenuation == 0.0 {
                 continue;
             }
-            let clearing_length = self.scene.loading.clearing.length(centre, self.half_width, self.around);
+            let clearing_length =
+                self.scene.loading.clearing.length(centre, self.half_width, self.around, self.body.surround);
             let face = match (faces, buried) {
                 (true, _) => Face::Front { clearing_length },
                 (false, false) => Face::Rear { clearing_length },
@@ -519,7 +604,7 @@ impl Aim<'_> {
             }
             let push = -panel.normal * panel.area;
             let twist = panel.centre.cross(push) * self.scene.dynamics.rotation_factor;
-            shot.panels.push(PanelLoad { charge: self.charge, history, push, twist, buried });
+            shot.panels.push(PanelLoad { charge: self.charge, panel: number, history, push, twist, buried });
         }
         shot
     }

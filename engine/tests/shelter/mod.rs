@@ -15,7 +15,7 @@ pub fn block(centre: DVec3, size: DVec3, turn: DQuat, group: u32) -> Solid {
         })
         .collect();
     let form = Form::Box { centre, half: size * 0.5, world_from_box: DMat3::from_quat(turn) };
-    Solid { form, group, occludes: true, points }
+    Solid { form, group, occludes: true, points, by_point: false }
 }
 
 /// The same solids, turned together about the origin.
@@ -29,6 +29,7 @@ pub fn turned(solids: &[Solid], turn: DQuat) -> Vec<Solid> {
                 form: Form::Box { centre: turn * centre, half, world_from_box: matrix * world_from_box },
                 group: solid.group,
                 occludes: solid.occludes,
+                by_point: solid.by_point,
                 points: solid
                     .points
                     .iter()

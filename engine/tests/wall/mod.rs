@@ -29,6 +29,8 @@ pub fn block(size: DVec3, position: DVec3, mass: f64) -> Body {
         friction: 0.6,
         drag_coefficient: 1.05,
         lift_coefficient: None,
+        surround: 0.0,
+        hold: None,
     }
 }
 
@@ -60,6 +62,7 @@ pub fn scene(bodies: Vec<Body>, charges: Vec<Charge>) -> Scene {
         ground: Some(Ground { height: 0.0, friction: 0.6 }),
         charges,
         bodies,
+        windows: Vec::new(),
         time: Time { duration: 0.4, frame_rate: 100.0, step: None },
         loading: Loading::default(),
         occlusion: Settings::default(),

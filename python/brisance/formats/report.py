@@ -12,7 +12,7 @@ from brisance.formats.atomic import write_text
 from brisance.model import Charge
 
 if TYPE_CHECKING:
-    from brisance.result import Result
+    from brisance.result import Pane, Result
 
 UNITS = {
     "length": "m",
@@ -34,6 +34,7 @@ _PER_BODY = (
     "impulse_n_s",
     "attenuation",
     "launch_speed_m_s",
+    "free_time_s",
     "rest_time_s",
     "final_position_m",
 )
@@ -58,6 +59,7 @@ def report(result: Result) -> dict[str, Any]:
         "timing_s": {name: result.timing_s.get(name, 0.0) for name in TIMINGS},
         "warnings": list(result.warnings),
         "charges": [_charge(charge) for charge in scene.charges],
+        "windows": [_window(pane) for pane in result.panes],
         "settings": scene.model_dump(mode="json", exclude={"charges", "objects", "name", "seed"}),
         "bodies": [
             {"name": name, "source": source, **dict(zip(_PER_BODY, facts, strict=True))}
@@ -88,6 +90,22 @@ def _charge(charge: Charge) -> dict[str, Any]:
         "time_s": charge.time,
         "gain": charge.gain,
         "curves": charge.curves,
+    }
+
+
+def _window(pane: Pane) -> dict[str, Any]:
+    return {
+        "name": pane.name,
+        "fate": pane.fate,
+        "failure_time_s": pane.failure_time_s,
+        "failure_place_m": None if pane.failure_place_m is None else list(pane.failure_place_m),
+        "peak_pressure_pa": pane.peak_pressure_pa,
+        "peak_stress_pa": pane.peak_stress_pa,
+        "strength_pa": pane.strength_pa,
+        "pieces": pane.stop - pane.start,
+        "staying": pane.staying,
+        "mean_area_m2": pane.mean_area_m2,
+        "frame_impulse_n_s": list(pane.frame_impulse_n_s),
     }
 
 

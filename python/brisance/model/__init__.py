@@ -9,12 +9,14 @@ A value out of range raises :class:`brisance.errors.InputError` with one sentenc
 
 from __future__ import annotations
 
+from brisance.model.anything import AnyObject, object_keys
 from brisance.model.base import Material, Model
 from brisance.model.charge import Charge, explosive_factor
-from brisance.model.objects import AnyObject, Block, BrickWall, MeshObject, SceneObject, object_keys
-from brisance.model.pattern import Pattern
+from brisance.model.objects import Block, BrickWall, MeshObject, SceneObject
+from brisance.model.pattern import Cracks, Pattern, WindowPattern
 from brisance.model.scene import Scene
 from brisance.model.settings import Air, Dynamics, Ground, Loading, Occlusion, SceneSettings, Time
+from brisance.model.window import Window
 
 __all__ = [
     "Air",
@@ -22,6 +24,7 @@ __all__ = [
     "Block",
     "BrickWall",
     "Charge",
+    "Cracks",
     "Dynamics",
     "Ground",
     "Loading",
@@ -34,6 +37,8 @@ __all__ = [
     "SceneObject",
     "SceneSettings",
     "Time",
+    "Window",
+    "WindowPattern",
     "explosive_factor",
     "object_keys",
 ]

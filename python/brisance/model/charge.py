@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from brisance.model.base import Model, NotNegative, Positive, Vector
+from brisance.model.base import Model, NotNegative, Number, Positive, Vector
 
 
 class Charge(Model):
@@ -30,7 +30,11 @@ class Charge(Model):
         default="air",
         description="air: free in the air; surface: on the ground, which reflects its energy upward.",
     )
-    time: NotNegative = Field(default=0.0, description="Moment of detonation [s], 0 or later; default 0.")
+    time: Number = Field(
+        default=0.0,
+        description="Moment of detonation [s]; default 0. It may lie before the first frame, as long as its "
+        "front has reached nothing by then.",
+    )
     gain: NotNegative = Field(
         default=1.0,
         le=1000.0,

@@ -8,8 +8,8 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field, model_validator
 
+from brisance.model.anything import AnyObject, named
 from brisance.model.charge import Charge
-from brisance.model.objects import AnyObject, named
 from brisance.model.settings import SceneSettings
 
 
@@ -23,7 +23,7 @@ class Scene(SceneSettings):
         description="The charges, one or more."
     )
     objects: Annotated[Sequence[AnyObject], AfterValidator(tuple)] = Field(
-        default=(), description="What the blast acts on: Block, BrickWall, MeshObject."
+        default=(), description="What the blast acts on: Block, BrickWall, MeshObject, Window."
     )
     base_folder: Path = Field(
         default=Path(), exclude=True, description="Folder that file names in the scene start from."
@@ -53,5 +53,5 @@ class Scene(SceneSettings):
 
     @property
     def piece_count(self) -> int:
-        """Number of rigid bodies in the scene."""
+        """Number of rigid bodies in the scene, pieces of windows that the load decides on left out."""
         return sum(obj.piece_count for obj in self.objects)
