@@ -66,12 +66,9 @@ class Pane:
     amplitude: NDArray[np.float64]
     """(F,) how far it bends at each frame, as the pressure that would bend it as far at rest [Pa]."""
 
-    @property
-    def broken_at_s(self) -> float:
-        """When it stops being one whole [s]: infinite for a pane that holds, 0 for one in pieces before."""
-        if self.fate == "holds":
-            return float("inf")
-        return self.failure_time_s or 0.0
+    broken_at_s: float
+    """When it stops being seen as one whole [s]: when it fails, or when the front comes to one that was in pieces
+    before; infinite for one that holds."""
 
 
 @dataclass(frozen=True, eq=False)

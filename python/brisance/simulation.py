@@ -263,10 +263,17 @@ def _panes(scene: Scene, built: Built, recording: _engine.Recording) -> list[tup
             mesh=mesh,
             deflection=after.deflection(mesh.points[:, :2].astype(np.float64)),
             amplitude=after.amplitude(times),
+            broken_at_s=_broken_at(after, recording.arrival_time_s[start:stop]),
         )
         found.append((group, pane))
         start = stop
     return found
+
+
+def _broken_at(pane: _engine.Pane, arrivals: NDArray[np.float64]) -> float:
+    if pane.failure_time_s is not None:
+        return pane.failure_time_s
+    return float("inf") if pane.fate == "holds" else float(arrivals.min())
 
 
 class _Progress:

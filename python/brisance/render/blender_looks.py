@@ -100,7 +100,7 @@ def dress(materials: Any) -> None:
     for material in materials:
         name = material.name.lower()
         if "glass" in name:
-            _glass(material)
+            (_broken_glass if "broken" in name else _glass)(material)
             continue
         look = next((look for word, look in LOOKS.items() if word in name), None)
         if look is not None:
@@ -138,12 +138,29 @@ def _solid(material: Any, look: Look, noise: Any) -> None:
 
 
 def _glass(material: Any) -> None:
-    """Thin clear glass: what lies behind shows straight through, and only grazing rays are mirrored."""
+    """Thin clear glass: what lies behind shows straight through, and only grazing rays are mirrored.
+
+    Rays are not bent, so one that leaves would be mirrored inside again and again and come out black: only the
+    side on which it enters mirrors.
+    """
     nodes = Nodes(material)
-    clear = nodes.add("ShaderNodeBsdfTransparent", Color=(0.86, 0.93, 0.90))
+    clear = nodes.add("ShaderNodeBsdfTransparent", Color=(0.93, 0.965, 0.95))
+    nodes.surface(_mirrored(nodes, clear))
+
+
+def _broken_glass(material: Any) -> None:
+    """A cut through glass: seen along the pane it is green and bright, for it lights up with what runs inside."""
+    nodes = Nodes(material)
+    through = nodes.add("ShaderNodeBsdfTransparent", Color=(0.74, 0.90, 0.84))
+    glow = nodes.add("ShaderNodeBsdfTranslucent", Color=(0.62, 0.84, 0.77))
+    nodes.surface(_mirrored(nodes, nodes.add("ShaderNodeMixShader", Fac=0.5, Shader=through, Shader_001=glow)))
+
+
+def _mirrored(nodes: Nodes, body: Any) -> Any:
     mirror = nodes.add("ShaderNodeBsdfGlossy", Color=(1.0, 1.0, 1.0), Roughness=0.02)
-    edge = nodes.maths("ADD", nodes.add("ShaderNodeFresnel", IOR=1.45), 0.03)
-    nodes.surface(nodes.add("ShaderNodeMixShader", Fac=edge, Shader=clear, Shader_001=mirror))
+    outside = nodes.maths("SUBTRACT", 1.0, nodes.add("ShaderNodeNewGeometry", output="Backfacing"))
+    fresnel = nodes.maths("MULTIPLY", nodes.add("ShaderNodeFresnel", IOR=1.5), outside)
+    return nodes.add("ShaderNodeMixShader", Fac=fresnel, Shader=body, Shader_001=mirror)
 
 
 def _place(nodes: Nodes, stretch: Colour) -> tuple[Any, Any]:

@@ -114,7 +114,8 @@ def _set_up_cycles(cycles: Any, job: Job) -> None:
     cycles.use_denoising, cycles.denoiser = True, "OPENIMAGEDENOISE"
     cycles.denoising_prefilter, cycles.denoising_quality = "ACCURATE", "BALANCED"
     cycles.max_bounces, cycles.diffuse_bounces, cycles.glossy_bounces = 6, 2, 2
-    cycles.transparent_max_bounces = 12
+    # A ray through a cloud of shards enters and leaves many of them.
+    cycles.transparent_max_bounces = 64
     cycles.caustics_reflective = cycles.caustics_refractive = False
 
 

@@ -13,6 +13,7 @@ object of a single piece is a Mesh in both.
       Charges/charge_0       purpose guide
       Charges/shock_front_0  purpose guide, grows frame by frame
       wall/wall_r0_c0 …      prims: a Mesh a piece; instancer: wall is a PointInstancer over wall/Prototypes
+      window_pane            the whole pane of a window, seen until it breaks into the pieces of window
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from brisance.formats.usd import instancer_layout, physics, prims_layout
 from brisance.formats.usd.authoring import attribute
 from brisance.formats.usd.layer import check_usd_path, start_layer, write_layer
 from brisance.formats.usd.materials import author_materials
+from brisance.formats.usd.panes import author_pane
 from brisance.formats.usd.show import Show
 from brisance.formats.usd.surroundings import author_charges, author_ground
 
@@ -105,10 +107,13 @@ def build_layer(
         physics.author_scene(world)
         author_ground(world, result)
         author_charges(world, result)
+        panes = {pane.start: pane for pane in result.panes}
         for source in result.sources:
             single = source.stop - source.start == 1
             rooms = prims_layout if chosen == "prims" or single else instancer_layout
-            rooms.author_object(world, show, source)
+            prim = rooms.author_object(world, show, source)
+            if source.start in panes:
+                author_pane(world, prim, result, panes[source.start], show.names)
     return layer
 
 

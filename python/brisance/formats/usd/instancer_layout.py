@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 _T = Sdf.ValueTypeNames
 
 
-def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
-    """Author an object as a PointInstancer with one instance a piece."""
+def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> Sdf.PrimSpec:
+    """Author an object as a PointInstancer with one instance a piece; return its prim."""
     bodies = slice(source.start, source.stop)
     instancer = show.define_object(world, source, "PointInstancer")
     indices, radii = _author_prototypes(instancer, show, source)
@@ -44,6 +44,7 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
     show.facts.author_arrays(instancer, bodies)
     _author_motion(instancer, show, bodies, radii)
     show.advance(source.stop - source.start)
+    return instancer
 
 
 def _author_prototypes(

@@ -21,8 +21,8 @@ _T = Sdf.ValueTypeNames
 _OPS = Vt.TokenArray(["xformOp:translate", "xformOp:orient"])
 
 
-def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
-    """Author an object as an Xform with one Mesh a piece."""
+def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> Sdf.PrimSpec:
+    """Author an object as an Xform with one Mesh a piece; return its prim."""
     parent = show.define_object(world, source, "Xform")
     names = Names()
     tint, colours = tints(source)
@@ -45,6 +45,7 @@ def author_object(world: Sdf.PrimSpec, show: Show, source: Source) -> None:
         _author_motion(piece, show, body)
         show.facts.author(piece, body)
         show.advance(1)
+    return parent
 
 
 def author_looks(piece: Sdf.PrimSpec, geometry: Geometry, *, material: str, colour: Vt.Vec3fArray) -> None:

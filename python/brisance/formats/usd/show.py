@@ -29,7 +29,7 @@ class Show:
 
     ``positions`` (frames, bodies, 3) and ``orientations`` (frames, bodies, 4; w x y z, sign-continuous) are
     the recorded float32 values; ``carries`` and ``turns`` (frames, bodies) mark the frames that carry the
-    motion of each.
+    motion of each. ``names`` gives out the names of prims under ``/World``.
     """
 
     def __init__(self, result: Result, progress: Callable[[int, int], None] | None) -> None:
@@ -43,7 +43,7 @@ class Show:
         self.spins = final_spins(self.orientations, result.frame_rate)
         self.geometries = Geometries(result.meshes)
         self.facts = Facts(result)
-        self._names = Names(RESERVED)
+        self.names = Names(RESERVED)
         self._progress = progress
         self._done = 0
 
@@ -60,7 +60,7 @@ class Show:
 
     def define_object(self, world: Sdf.PrimSpec, source: Source, type_name: str) -> Sdf.PrimSpec:
         """Define the prim of an object, with what a reader wants to know of it at a glance."""
-        prim = define(world, self._names.identifier(source.name), type_name)
+        prim = define(world, self.names.identifier(source.name), type_name)
         prim.kind = "component"
         bodies = slice(source.start, source.stop)
         attribute(prim, "brisance:name", _T.String, source.name, uniform=True)
