@@ -164,8 +164,7 @@ impl Simulation {
             ));
         }
         let bodies: Vec<RigidBody> = targets.iter().map(|target| target.body).collect();
-        let phases =
-            footings
+        let phases = footings
             .iter()
             .map(|f| match (f.anchored, f.held) {
                 (true, _) => Phase::Anchored,

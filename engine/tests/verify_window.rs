@@ -170,8 +170,8 @@ fn the_frame_holds_the_rim_longer() {
     assert!(outer.iter().any(|t| t.is_nan()), "splinters stay in the frame");
     for (piece, hold) in pane.holds.iter().enumerate().filter(|(_, hold)| hold.until.is_infinite()) {
         let last = recording.facts.len() * (recording.times.len() - 1);
-        let gone = recording.positions[last + piece].as_dvec3()
-            - pane.pieces.moments[piece].centroid.extend(0.0);
+        let gone =
+            recording.positions[last + piece].as_dvec3() - pane.pieces.moments[piece].centroid.extend(0.0);
         assert!(gone.length() < 0.02, "{gone} {hold:?}");
     }
 }
@@ -236,7 +236,12 @@ fn a_block_shelters_a_pane_behind_it() {
     car.anchored = true;
     scene.bodies.push(car);
     let found = panes(&scene).panes;
-    assert!(found[0].peak_pressure < 0.8 * found[1].peak_pressure, "{} {}", found[0].peak_pressure, found[1].peak_pressure);
+    assert!(
+        found[0].peak_pressure < 0.8 * found[1].peak_pressure,
+        "{} {}",
+        found[0].peak_pressure,
+        found[1].peak_pressure
+    );
     let (_, recording) = run(&scene);
     let behind = &recording.facts[1..=found[0].pieces.len()];
     assert!(behind.iter().all(|facts| facts.attenuation < 1.0));
@@ -299,4 +304,19 @@ fn odd_outlines_break_too() {
         assert!((mass / (area * 0.006 * 2500.0) - 1.0).abs() < 1e-9);
         assert!(recording.positions.iter().all(|p| p.is_finite()));
     }
+}
+
+/// A pane in the opening of a wall is not sheltered by the wall, however small it is in the charge's map.
+#[test]
+fn the_wall_around_a_pane_does_not_shelter_it() {
+    let alone = scene(window(1.0, 1.0, 0.006, 20), 500.0, 110.0);
+    let mut walled = alone.clone();
+    for (x, y) in [(-1.5, 0.0), (1.5, 0.0)] {
+        walled.bodies.push(wall::block(DVec3::new(1.9, 4.0, 0.2), DVec3::new(x, y, 0.0), 3000.0));
+    }
+    for y in [-1.3, 1.3] {
+        walled.bodies.push(wall::block(DVec3::new(1.1, 1.4, 0.2), DVec3::new(0.0, y, 0.0), 1000.0));
+    }
+    walled.bodies.iter_mut().for_each(|body| body.anchored = true);
+    assert_eq!(only(&walled).peak_pressure, only(&alone).peak_pressure);
 }

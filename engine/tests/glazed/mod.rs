@@ -31,11 +31,7 @@ pub fn window(width: f64, height: f64, thickness: f64, pieces: usize) -> Window 
         material: GLASS,
         strength: 45e6,
         may_break: true,
-        recipe: Recipe {
-            fineness: Fineness::Pieces(pieces),
-            wiggle_probability: 0.0,
-            ..Recipe::default()
-        },
+        recipe: Recipe { fineness: Fineness::Pieces(pieces), wiggle_probability: 0.0, ..Recipe::default() },
         by_load: false,
         release: Release::AsItCracks,
         bite: Some(0.01),
