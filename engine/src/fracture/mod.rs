@@ -14,6 +14,7 @@ mod calendar;
 mod clock;
 mod glass;
 mod graph;
+mod grid;
 mod growth;
 pub mod outline;
 mod pattern;
