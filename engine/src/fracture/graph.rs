@@ -10,6 +10,7 @@ use core::cmp::Ordering;
 use glam::DVec2;
 
 use super::growth::{Stop, Traces};
+use super::order;
 use super::outline::turn;
 use super::run::NONE;
 use super::settings::Settings;
@@ -64,7 +65,7 @@ struct Loop {
 }
 
 /// The faces that traces bound, in a fixed order.
-pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
+pub(super) fn faces(traces: &Traces, settings: &Settings) -> Faces {
     let mut graph = Graph::new(traces, settings);
     let (loops, loop_of) = graph.part();
     let holes = graph.holes(&loops, &loop_of);
@@ -86,9 +87,10 @@ pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
 }
 
 impl Graph {
-    fn new(traces: &mut Traces, settings: &Settings) -> Self {
-        let stops = sorted_stops(&traces.stops, traces.tips.len());
-        let merged = merge_close(&stops, traces.vertices.len(), traces.resolution);
+    fn new(traces: &Traces, settings: &Settings) -> Self {
+        let mut stops = order::sorted_stops(traces, settings);
+        let vertices = order::renumber(&mut stops, &traces.vertices, traces.borders);
+        let merged = merge_close(&stops, vertices.len(), traces.resolution);
         let mut edges = Vec::with_capacity(stops.len());
         let mut borders = 0;
         for pair in stops.windows(2) {
@@ -98,11 +100,11 @@ impl Graph {
             }
             let on_border = (pair[0].trace as usize) < traces.borders;
             borders += usize::from(on_border);
-            let cut = || pair[1].at + settings.delay(traces.vertices[to as usize]);
+            let cut = || pair[1].at + settings.delay(vertices[to as usize]);
             edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { cut() } });
         }
         Self {
-            vertices: core::mem::take(&mut traces.vertices),
+            vertices,
             edges,
             borders,
             leaving: Vec::new(),
@@ -376,29 +378,6 @@ impl Graph {
 fn around(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
     let lower = |p: DVec2| p.y < centre.y || (p.y == centre.y && p.x < centre.x);
     lower(a).cmp(&lower(b)).then_with(|| 0.0.partial_cmp(&turn(centre, a, b)).expect("vertices are finite"))
-}
-
-/// Stops by trace, and along each trace by place.
-fn sorted_stops(stops: &[Stop], traces: usize) -> Vec<Stop> {
-    let mut first = vec![0u32; traces + 1];
-    for stop in stops {
-        first[stop.trace as usize + 1] += 1;
-    }
-    for trace in 0..traces {
-        first[trace + 1] += first[trace];
-    }
-    let mut place = first.clone();
-    let mut sorted = vec![Stop { trace: 0, at: 0.0, vertex: 0 }; stops.len()];
-    for stop in stops {
-        let slot = &mut place[stop.trace as usize];
-        sorted[*slot as usize] = *stop;
-        *slot += 1;
-    }
-    for trace in 0..traces {
-        sorted[first[trace] as usize..first[trace + 1] as usize]
-            .sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.vertex.cmp(&b.vertex)));
-    }
-    sorted
 }
 
 /// Sets of vertices that are one.

@@ -62,7 +62,8 @@ pub(super) struct Tip {
     run: u32,
     /// The trace that stopped it; `NONE` while it runs, where it forked, and where it just ended.
     pub stopped_by: u32,
-    tree: u32,
+    /// The nucleus from which it comes; `NONE` for an edge of the border.
+    pub tree: u32,
     depth: u16,
     kind: Kind,
     running: bool,

@@ -16,6 +16,7 @@ mod glass;
 mod graph;
 mod grid;
 mod growth;
+mod order;
 pub mod outline;
 mod pattern;
 mod pieces;
