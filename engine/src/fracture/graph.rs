@@ -103,14 +103,7 @@ impl Graph {
             let cut = || pair[1].at + settings.delay(vertices[to as usize]);
             edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { cut() } });
         }
-        Self {
-            vertices,
-            edges,
-            borders,
-            leaving: Vec::new(),
-            first: Vec::new(),
-            next: Vec::new(),
-        }
+        Self { vertices, edges, borders, leaving: Vec::new(), first: Vec::new(), next: Vec::new() }
     }
 
     /// Every walk round a face and for each half-edge the one it belongs to, once only such edges are left as part

@@ -13,7 +13,8 @@ pub(super) struct Sketch {
     ends: [Vec2; 2],
 }
 
-/// What rounding to a sketch costs at most, and more [cells].
+/// What rounding costs at most, and more [cells]: a sketch is good to a six-thousandth of a cell along each axis, a
+/// block to a sixteen-thousandth.
 const BLUR: f32 = 2e-3;
 
 /// A cell of the grid.
@@ -66,7 +67,7 @@ impl Block {
 
     fn push(&mut self, [from, to]: [Vec2; 2], run: u32) {
         let at = self.count as usize;
-        let rounded = |x: f32| (x + 16_384.5) as i16 - 16_384;
+        let rounded = |x: f32| ((x + 32_768.5) as i32 - 32_768) as i16;
         (self.from_x[at], self.from_y[at]) = (rounded(from.x), rounded(from.y));
         (self.to_x[at], self.to_y[at]) = (rounded(to.x), rounded(to.y));
         self.runs[at] = run;
@@ -88,7 +89,8 @@ impl Block {
 #[inline]
 fn to_one_side([from, to]: [Vec2; 2], other: [Vec2; 2]) -> bool {
     let along = to - from;
-    let blur = BLUR * STEPS * (along.x.abs() + along.y.abs());
+    // What rounding does to `along` counts over the whole distance to the other run, however short this one is.
+    let blur = BLUR * STEPS * (STEPS + along.x.abs() + along.y.abs());
     let sides = other.map(|end| along.perp_dot(end - from));
     (sides[0] > blur && sides[1] > blur) || (sides[0] < -blur && sides[1] < -blur)
 }
@@ -126,7 +128,7 @@ impl Grid {
         });
         // Of the cells in its box a slanting run passes by some.
         let along = b - a;
-        let reach = (0.5 + BLUR) * (along.x.abs() + along.y.abs());
+        let reach = 0.5 * (along.x.abs() + along.y.abs()) + BLUR;
         cells.filter(move |cell| along.perp_dot(cell.corner + 0.5 - a).abs() <= reach)
     }
 
@@ -137,15 +139,6 @@ impl Grid {
         let first = self.blocks.get(self.heads[cell.index] as usize);
         core::iter::successors(first, |block| self.blocks.get(block.next as usize)).flat_map(move |block| {
             (0..block.count as usize).filter(move |&i| block.may_meet(i, ends)).map(|i| block.runs[i])
-        })
-    }
-
-    /// Fetches the lists of the cells that a run touches.
-    #[inline]
-    pub fn touch(&self, sketch: &Sketch) -> u32 {
-        self.cells(sketch).fold(0, |sum, cell| {
-            let block = self.blocks.get(self.heads[cell.index] as usize);
-            sum ^ block.map_or(0, |block| block.from_x[0] as u32 ^ block.next)
         })
     }
 

@@ -38,7 +38,8 @@ pub(super) fn sorted_stops(traces: &Traces, settings: &Settings) -> Vec<Stop> {
 
 /// Numbers vertices in the order in which stops come by them; the corners of the border keep theirs, and so the first.
 pub(super) fn renumber(stops: &mut [Stop], vertices: &[DVec2], corners: usize) -> Vec<DVec2> {
-    let mut number: Vec<u32> = (0..vertices.len() as u32).map(|v| if (v as usize) < corners { v } else { NONE }).collect();
+    let mut number: Vec<u32> =
+        (0..vertices.len() as u32).map(|v| if (v as usize) < corners { v } else { NONE }).collect();
     let mut ordered = Vec::with_capacity(vertices.len());
     ordered.extend_from_slice(&vertices[..corners]);
     for stop in stops {
