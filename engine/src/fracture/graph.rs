@@ -5,6 +5,8 @@
 //! exact predicates, and every face is walked with its area on the left. Stems are cut off too: where a crack curls
 //! up and meets itself, the way there has the same face on both sides.
 
+mod holes;
+
 use core::cmp::Ordering;
 
 use glam::DVec2;
@@ -291,57 +293,6 @@ impl Graph {
             loops.push(walk);
         }
         (loops, loop_of)
-    }
-
-    /// Which walk is a hole in which face, sorted by face. Holes are cracks, or holes of the pane, that nothing
-    /// connects to the rest.
-    fn holes(&self, loops: &[Loop], loop_of: &[u32]) -> Vec<(u32, u32)> {
-        let mut islands: Vec<(u32, DVec2)> = (loops.iter().enumerate())
-            .filter(|(_, walk)| !walk.outside && walk.area <= 0.0)
-            .map(|(index, walk)| (index as u32, self.leftmost(walk)))
-            .collect();
-        islands.sort_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let mut holes: Vec<(u32, u32)> = Vec::with_capacity(islands.len());
-        for (island, point) in islands {
-            let Some(beside) = self.left_of(point, island, loop_of) else { continue };
-            // What is left of an island is a face, or an island in the same face, which has been placed already.
-            let face = holes.iter().find(|&&(_, hole)| hole == beside).map_or(beside, |&(face, _)| face);
-            holes.push((face, island));
-        }
-        holes.sort_unstable();
-        holes
-    }
-
-    fn leftmost(&self, walk: &Loop) -> DVec2 {
-        self.walk(walk)
-            .map(|half| self.vertices[self.origin(half) as usize])
-            .min_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))
-            .expect("a walk has vertices")
-    }
-
-    /// The walk whose inside is met first on the way to the left from a point.
-    fn left_of(&self, point: DVec2, island: u32, loop_of: &[u32]) -> Option<u32> {
-        let mut nearest: Option<(f64, [DVec2; 2], u32)> = None;
-        for (half, &walk) in loop_of.iter().enumerate() {
-            if walk == NONE || walk == island {
-                continue;
-            }
-            let from = self.vertices[self.origin(half as u32) as usize];
-            let to = self.vertices[self.target(half as u32) as usize];
-            // Downward half-edges have their inside to the right of them.
-            if from.y > point.y && to.y <= point.y && turn(from, to, point) > 0.0 {
-                let level = (from.y - point.y) / (from.y - to.y);
-                let x = if to.y == point.y { to.x } else { from.x + (to.x - from.x) * level };
-                // Of two that end in one vertex at this very height, the one farther right above it is nearer.
-                let nearer = nearest.is_none_or(|(best, [tail, head], _)| {
-                    x > best || (x == best && turn(tail, head, from) > 0.0)
-                });
-                if nearer {
-                    nearest = Some((x, [from, to], walk));
-                }
-            }
-        }
-        nearest.map(|(_, _, walk)| walk)
     }
 
     fn walk(&self, walk: &Loop) -> impl Iterator<Item = u32> + '_ {
