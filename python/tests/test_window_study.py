@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import brisance as br
 from brisance.errors import InputError
-from brisance.figures import broken_panes, cracks, figure_window_plume, wall, window
+from brisance.figures import broken_panes, cracks, figure_window_plume, painter, wall, window
 from brisance.figures.broken_panes import Trial, fly, mean_area, mean_speed
 from brisance.plume import angular_speeds, length, plume, quantiles, travels, width
 from brisance.result import Result
@@ -66,6 +66,19 @@ def test_the_overdamped_scene_is_the_thesis_s_but_for_the_damping() -> None:
     assert one["dynamics"].pop("damping_factor") == 1.0
     assert one.pop("name") != other.pop("name")
     assert one == other
+
+
+def test_the_camera_of_the_figures_is_close_and_loses_no_corner(overdamped: Result) -> None:
+    frames = window.shown(overdamped)
+    close, far = (
+        painter.place_camera(overdamped, frames, window.SIDE, aspect=0.3, close=close)
+        for close in (True, False)
+    )
+    for index in frames:
+        corners = np.concatenate(painter.world_triangles(overdamped, index)).reshape(-1, 3)
+        assert close.inside(corners, np.zeros(len(corners))).all()
+    middle = overdamped.positions[0].mean(axis=0)
+    assert np.linalg.norm(close.position - middle) < 0.8 * np.linalg.norm(far.position - middle)
 
 
 # What the thesis saw.

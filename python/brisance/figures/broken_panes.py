@@ -155,6 +155,6 @@ def breaking_pressure(mass: float, thickness: float, side: float, strength: floa
         held = fly(Trial(mass, pressure, thickness, strength=1e12, side=side))
         change = strength / held.peak_stress
         pressure *= change
-        if abs(change - 1.0) < 1e-4:
+        if abs(change - 1.0) < 1e-3:
             break
     return pressure

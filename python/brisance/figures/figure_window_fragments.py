@@ -63,8 +63,9 @@ def _draw_speeds(axes: Axes, flights: dict[Trial, Flight], thickness: float) -> 
         axes.plot(PRESSURES, [f.bound for f in these], "--", color=COLOURS[mass], linewidth=0.9)
     axes.set(xscale="log", yscale="log", xlabel="peak reflected pressure [Pa]", ylabel="mean speed [m/s]")
     axes.set_ylim(0.1, 1000.0)
-    axes.set_title(f"speed, {1e3 * thickness:.0f} mm glass; dashed: all of the reflected impulse")
-    axes.legend(loc="upper left")
+    axes.plot([], [], "--", color=style.GREY, linewidth=0.9, label="all of the impulse")
+    axes.set_title(f"speed of fragments, {1e3 * thickness:.0f} mm glass")
+    axes.legend(loc="upper left", fontsize="small")
 
 
 def table(flights: dict[Trial, Flight]) -> Table:

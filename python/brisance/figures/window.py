@@ -31,7 +31,7 @@ def shown(result: Result) -> list[int]:
 
 def draw_six(picture: Picture, result: Result, view: View, *, rows: int) -> None:
     """Draw six equally spaced frames of a result."""
-    draw_frames(picture, result, shown(result), view, rows=rows)
+    draw_frames(picture, result, shown(result), view, rows=rows, close=True)
 
 
 def sizes_and_travel(result: Result) -> Table:
