@@ -26,7 +26,7 @@ VARIANTS: dict[str, tuple[str, ...]] = {
     "relieved from the edge of the pane": ("loading.clearing=assembly",),
     "and breaking under its load": ("loading.clearing=assembly", "window.0.release=as it cracks"),
     "and in a frame": (*COUPLING, "window.0.facade=0"),
-    "and in a wall of 3 m around": COUPLING,
+    "and in a wall of 10 m around": COUPLING,
 }
 """From the thesis's window to a coupled and framed one of the same pattern and charge, a step at a time."""
 DAMPING = 1000.0

@@ -250,7 +250,7 @@ class Scene:
         friction: float,
         drag_coefficient: float,
         lift_coefficient: float | None,
-    ) -> None: ...
+    ) -> int | None: ...
     def add_mesh(
         self,
         *,
@@ -279,7 +279,7 @@ class Scene:
         release: Literal["as it cracks", "all at once"],
         bite: float | None,
         facade: float,
-        framed: bool,
+        assembly: int | None,
         occludes: bool,
         can_rotate: bool,
         friction: float,
