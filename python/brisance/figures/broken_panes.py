@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 import brisance
 from brisance import _engine
+from brisance.model.window import FACADE
 from brisance.plume import free_pieces, travels
 from brisance.result import Result
 
@@ -26,8 +27,6 @@ MOST_PIECES = 2000
 """Where (2.45) asks for more pieces, the pane is smaller."""
 WEAK = 1e5
 """Strength of panes that are to break under any pressure [Pa]; real glass is some 450 times stronger."""
-FACADE = 3.0
-"""How far the wall goes on around the pane [m]: the default of a window in a frame."""
 NEAR = 3.0
 """A piece's speed is looked at while it has come no farther than this [m]: about a room."""
 LEAD, AFTER = 0.002, 0.05
