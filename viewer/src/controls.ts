@@ -28,9 +28,6 @@ export class Controls {
   /** Show a scene's tables; they are changed in place. */
   show(tables: Tables): void {
     this.tables = tables;
-    const opened = new Set(
-      [...this.element.querySelectorAll<HTMLDetailsElement>("details[open]")].map((part) => part.dataset.key),
-    );
     this.element.replaceChildren();
     const names = Object.keys(this.root.properties ?? {});
     const rank = (name: string) => (FIRST.includes(name) ? FIRST.indexOf(name) : FIRST.length);
@@ -40,10 +37,7 @@ export class Controls {
     const general = this.section("scene", "scene", "The scene as a whole.");
     for (const name of scalars) general.append(this.field(name, [name], this.root.properties?.[name] ?? {}, this.root));
     this.element.append(...parts.slice(0, 1), general, ...parts.slice(1));
-    for (const part of this.element.querySelectorAll("details")) {
-      const key = part.dataset.key ?? "";
-      part.open = opened.size > 0 ? opened.has(key) : OPEN.includes(key);
-    }
+    for (const part of this.element.querySelectorAll("details")) part.open = OPEN.includes(part.dataset.key ?? "");
   }
 
   /** Write a value from elsewhere (the gizmo) into the scene and its control. */
@@ -225,7 +219,7 @@ export class Controls {
 }
 
 function plain(name: string): string {
-  return name.replaceAll("_", " ");
+  return name.replaceAll("_", " ").replace(/\btnt\b/, "TNT");
 }
 
 /** A text as a number where it is one; else as it stands, for the server to say what is wrong. */

@@ -25,7 +25,7 @@ void main() {
   float facing = abs(dot(normalize(cameraPosition - vPlace), normalize(vNormal)));
   float rim = pow(1.0 - facing, 3.5);
   float foot = 1.0 - smoothstep(0.0, 0.03 + 0.012 * radius, vPlace.y - ground);
-  gl_FragColor = vec4(colour, strength * (0.035 + 0.42 * rim + 0.5 * foot));
+  gl_FragColor = vec4(colour, strength * (0.04 + 0.5 * rim + 0.5 * foot));
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
 }`;
@@ -62,8 +62,11 @@ export class Fronts {
       shell.scale.setScalar(Math.max(radius, 1e-3));
       const { uniforms } = (shell as THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>).material;
       if (uniforms.radius) uniforms.radius.value = radius;
-      // It fades as the wave weakens, from full within a few charge sizes to half far out.
-      if (uniforms.strength) uniforms.strength.value = 0.45 + 0.55 / (1 + radius / 15);
+      // It fades as the wave weakens: with the distance in cube roots of the charge's mass.
+      const scaled = radius / Math.cbrt(this.recording?.header.charges[index]?.tnt_mass_kg || 1);
+      const strength = 1 - THREE.MathUtils.smoothstep(scaled, 4, 24);
+      shell.visible &&= strength > 0;
+      if (uniforms.strength) uniforms.strength.value = strength;
     });
   }
 

@@ -84,9 +84,15 @@ if (vSelected > 0.5) {
 const CLEARNESS = /* glsl */ `
 float facing = abs(dot(normalize(vViewPosition), normal));
 float fresnel = 0.04 + 0.96 * pow(1.0 - facing, 5.0);
-float body = mix(0.16, 0.62, vBroken);
-diffuseColor.a = colouring > 0 ? 0.75 : clamp(body + fresnel, 0.0, 0.96);
-if (vSelected > 0.5) diffuseColor.a = max(diffuseColor.a, 0.6);
+float body = mix(0.13, 0.55, vBroken);
+diffuseColor.a = colouring > 0 ? 0.75 : clamp(body + fresnel, 0.0, 0.95);
+`;
+
+/** Clear glass scatters next to nothing; one sees what it mirrors, and its green body at the broken edges. */
+const CLEAR_OUTPUT = /* glsl */ `
+float scattered = colouring > 0 ? 1.0 : mix(0.32, 0.75, vBroken);
+outgoingLight = scattered * totalDiffuse + 2.5 * totalSpecular + totalEmissiveRadiance;
+gl_FragColor = vec4(outgoingLight, diffuseColor.a);
 `;
 
 /** The material of opaque or of clear pieces, drawn wherever the uniforms' tables say that they are. */
@@ -95,7 +101,6 @@ export function pieceMaterial(uniforms: Uniforms, clear: boolean): THREE.MeshSta
     transparent: clear,
     depthWrite: !clear,
     side: clear ? THREE.DoubleSide : THREE.FrontSide,
-    envMapIntensity: clear ? 1.6 : 1,
   });
   material.defines = { ...material.defines, MOST_LOOKS, ...(clear ? { CLEAR: 1 } : {}) };
   material.onBeforeCompile = (shader) => {
@@ -109,10 +114,13 @@ export function pieceMaterial(uniforms: Uniforms, clear: boolean): THREE.MeshSta
       .replace("#include <color_fragment>", COLOUR)
       .replace(
         "#include <roughnessmap_fragment>",
-        "float roughnessFactor = colouring > 0 ? 0.8 : mix(nature.x, 0.5 + 0.5 * nature.x, vBroken);",
+        clear
+          ? "float roughnessFactor = 0.14;"
+          : "float roughnessFactor = colouring > 0 ? 0.8 : mix(nature.x, 0.5 + 0.5 * nature.x, vBroken);",
       )
       .replace("#include <metalnessmap_fragment>", "float metalnessFactor = colouring > 0 ? 0.0 : nature.y;")
-      .replace("#include <emissivemap_fragment>", `${GLOW}\n${clear ? CLEARNESS : ""}`);
+      .replace("#include <emissivemap_fragment>", `${GLOW}\n${clear ? CLEARNESS : ""}`)
+      .replace("#include <opaque_fragment>", clear ? CLEAR_OUTPUT : "#include <opaque_fragment>");
   };
   material.customProgramCacheKey = () => `pieces ${clear}`;
   return material;

@@ -10,9 +10,10 @@ import { rampTexture } from "./ramp";
 import type { Recording } from "./recording";
 import { Surroundings, type Theme } from "./surroundings";
 
-/** From the way the blast goes to the way the camera looks from: turned to the left, and raised [rad]. */
-const AZIMUTH = THREE.MathUtils.degToRad(-40);
-const ELEVATION = THREE.MathUtils.degToRad(13);
+/** From the way the blast goes to the way the camera looks from: turned to the right, so that the charge stands beside
+ * the pieces and not behind them, and raised [rad]. */
+const AZIMUTH = THREE.MathUtils.degToRad(20);
+const ELEVATION = THREE.MathUtils.degToRad(11);
 /** Pieces looked at to follow the action: of more, every so many-th. */
 const WATCHED = 4000;
 /** A frame that takes longer than this [ms] while playing has the next drawn more coarsely. */
@@ -203,7 +204,7 @@ export class Stage {
     const half = THREE.MathUtils.degToRad(this.camera.fov) / 2;
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
     this.orbit.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(away, (1.15 * radius) / Math.sin(narrow));
+    this.camera.position.copy(centre).addScaledVector(away, (1.3 * radius) / Math.sin(narrow));
     this.orbit.update();
     this.touch();
   }

@@ -11,6 +11,7 @@ interface Daylight {
   sun: number;
   sunlight: number;
   skylight: number;
+  reflected: number;
   earth: number;
   line: number;
 }
@@ -22,20 +23,22 @@ const DAYLIGHT: Record<Theme, Daylight> = {
     horizon: 0xdfe3e6,
     nadir: 0x8d8273,
     sun: 0xfff0d8,
-    sunlight: 3.4,
-    skylight: 0.62,
+    sunlight: 3.2,
+    skylight: 1.1,
+    reflected: 0.35,
     earth: 0xa39580,
     line: 0x4a4236,
   },
   dark: {
-    zenith: 0x0d1524,
-    horizon: 0x4a5568,
+    zenith: 0x10182a,
+    horizon: 0x59636f,
     nadir: 0x1c1d20,
-    sun: 0xffd9ae,
-    sunlight: 3.0,
-    skylight: 1.0,
-    earth: 0x3c3d40,
-    line: 0xb8c4d8,
+    sun: 0xffe2c4,
+    sunlight: 2.6,
+    skylight: 2.6,
+    reflected: 0.9,
+    earth: 0x4a4e54,
+    line: 0x9fb0c8,
   },
 };
 
@@ -68,7 +71,8 @@ gl_FragColor.rgb = mix(gl_FragColor.rgb, haze, gone);
 export class Surroundings {
   readonly group = new THREE.Group();
   private readonly sun = new THREE.DirectionalLight();
-  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshStandardMaterial>;
+  private readonly sky = new THREE.HemisphereLight();
+  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshLambertMaterial>;
   private readonly haze = { value: new THREE.Color() };
   private readonly line = { value: new THREE.Color() };
   private readonly reach = { value: 10 };
@@ -85,7 +89,7 @@ export class Surroundings {
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -0.0004;
     this.sun.shadow.normalBias = 0.01;
-    const earth = new THREE.MeshStandardMaterial({ roughness: 1, metalness: 0 });
+    const earth = new THREE.MeshLambertMaterial();
     earth.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, { haze: this.haze, line: this.line, reach: this.reach, noise: { value: noise } });
       shader.vertexShader = shader.vertexShader
@@ -99,7 +103,7 @@ export class Surroundings {
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(2, 2).rotateX(-Math.PI / 2), earth);
     this.ground.scale.setScalar(4000);
     this.ground.receiveShadow = true;
-    this.group.add(this.sun, this.sun.target, this.ground);
+    this.group.add(this.sky, this.sun, this.sun.target, this.ground);
     scene.add(this.group);
   }
 
@@ -112,7 +116,7 @@ export class Surroundings {
   /** Let the sun stand across the way the blast goes, which is horizontal. */
   setBlastDirection(along: THREE.Vector3): void {
     const side = new THREE.Vector3(-along.z, 0, along.x);
-    this.direction = side.multiplyScalar(-0.4).addScaledVector(along, 0.8).setY(0.85).normalize();
+    this.direction = side.multiplyScalar(0.45).addScaledVector(along, 0.75).setY(0.9).normalize();
     this.radius = 0;
   }
 
@@ -140,6 +144,9 @@ export class Surroundings {
     const day = DAYLIGHT[theme];
     this.sun.color.set(day.sun);
     this.sun.intensity = day.sunlight;
+    this.sky.color.set(day.horizon).lerp(new THREE.Color(day.zenith), 0.35);
+    this.sky.groundColor.set(day.earth);
+    this.sky.intensity = day.skylight;
     this.ground.material.color.set(day.earth);
     this.haze.value.set(day.horizon);
     this.line.value.set(day.line);
@@ -151,7 +158,7 @@ export class Surroundings {
     (this.scene.background as THREE.Texture | null)?.dispose();
     this.scene.background = sky;
     this.scene.environment = this.environment;
-    this.scene.environmentIntensity = day.skylight;
+    this.scene.environmentIntensity = day.reflected;
   }
 }
 

@@ -12,6 +12,7 @@ from brisance.formats.packed import check_shown
 from brisance.memory import check_fits
 from brisance.model import Scene
 from brisance.scene_file import read_tables, scene_of
+from brisance.sentences import on_one_line
 
 DEEPEST = 16
 """Levels of tables and lists in a scene at most; the model itself uses four."""
@@ -77,7 +78,7 @@ class ScenesFolder:
             if outside:
                 shown = text if len(text) <= 40 else f"{text[:37]}..."
                 raise InputError(
-                    f"{path}: {key} {shown!r} leads out of the scenes folder; put the file into it, or start "
+                    f"{path}: {on_one_line(key)} {shown!r} leads out of the scenes folder; put the file into it, or start "
                     "brisance view with a wider --folder."
                 )
 

@@ -44,6 +44,17 @@ def serve(
     address once it answers. Raises :class:`InputError` where the scene is outside the folder or nothing can
     be bound to ``host``, and :class:`BrisanceError` where the viewer has not been built.
     """
+    server, bound, address = prepare(scene, folder=folder, host=host, port=port)
+    threading.Thread(target=_announce, args=(server, address, told, open_browser), daemon=True).start()
+    server.run(sockets=[bound])
+    if not server.started:
+        raise BrisanceError(f"the live view could not start at {address}")
+
+
+def prepare(
+    scene: Path, *, folder: Path | None = None, host: str = "127.0.0.1", port: int | None = None
+) -> tuple[uvicorn.Server, socket.socket, str]:
+    """The server of :func:`serve`, not yet running, the socket it is to listen at, and its address."""
     check_viewer()
     root = folder if folder is not None else scene.parent
     if not scene.is_file():
@@ -71,11 +82,7 @@ def serve(
         server_header=False,
         date_header=False,
     )
-    server = _Server(config)
-    threading.Thread(target=_announce, args=(server, address, told, open_browser), daemon=True).start()
-    server.run(sockets=[bound])
-    if not server.started:
-        raise BrisanceError(f"the live view could not start at {address}")
+    return _Server(config), bound, address
 
 
 def _announce(

@@ -85,7 +85,8 @@ class Workers:
 def sentence(error: BaseException) -> str:
     """What to tell of an error: its own sentence where the request is to blame."""
     if isinstance(error, BrisanceError):
-        return str(error)
+        told = str(error)
+        return told if told.endswith((".", "?")) else f"{told}."
     if isinstance(error, MemoryError):
         return "There is not enough memory for this; lower the number of frames or pieces."
     if os.environ.get("BRISANCE_TRACEBACK"):

@@ -43,6 +43,9 @@ ALIGNMENT = 16
 PIECES_A_ROW = 64
 """Pieces in one row of the piece table, each four texels of four numbers."""
 
+MOST_PIECES = 50_000
+"""Pieces beyond which neither a wait nor a picture would be called live."""
+
 _TYPES = {"float32": "f32", "uint32": "u32", "int8": "i8"}
 
 Array = NDArray[Any]
@@ -51,6 +54,10 @@ Array = NDArray[Any]
 def check_shown(scene: Scene) -> None:
     """Raise :class:`InputError` if a recording of the scene is more than the live view can hold."""
     poses = scene.time.frames * scene.piece_count
+    if scene.piece_count > MOST_PIECES:
+        raise InputError(
+            f"{scene.piece_count:,} pieces are more than the live view shows ({MOST_PIECES:,}); lower their number."
+        )
     if poses > MOST_POSES:
         raise InputError(
             f"{scene.time.frames:,} frames of {scene.piece_count:,} pieces are more than the live view shows "
@@ -58,6 +65,8 @@ def check_shown(scene: Scene) -> None:
         )
 
 
+# Masses and places of absurd size overflow to infinity, which is then shown as such; that is no reason to fail.
+@np.errstate(over="ignore", invalid="ignore")
 def pack(result: Result, *, known: str = "", extra: Mapping[str, Any] | None = None) -> bytes:
     """The message of a result.
 

@@ -25,8 +25,6 @@ SHARED_BY = 4
 """Pieces from which on a shared mesh is instanced: below, a draw call costs more than the copies."""
 MOST_INSTANCED = 16
 """Instanced batches at most; the meshes that would save the most vertices have them."""
-ALL_FLAT = 2000
-"""Distinct meshes from which on every edge is hard: so many are shards, whose faces are flat."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,19 +69,35 @@ def _of_kind(meshes: Sequence[PieceMesh], pieces: NDArray[np.int64], transparent
     instanced = {group[0] for group in shared}
     made = []
     for group in shared:
-        position, normal, index, _ = _surface([meshes[group[0]]])
+        mesh = meshes[group[0]]
+        position, normal, index, _ = _surface([mesh], smooth="broken" not in mesh.groups)
         piece = np.array(group, dtype=np.float32)
         made.append(Batch(position, normal, index, piece, instanced=True, transparent=transparent))
     rest = [piece for group in users.values() if group[0] not in instanced for piece in group]
     if rest:
-        position, normal, index, counts = _surface([meshes[piece] for piece in rest])
-        piece = np.repeat(np.array(rest, dtype=np.float32), counts)
-        made.append(Batch(position, normal, index, piece, instanced=False, transparent=transparent))
+        made.append(_merged(meshes, rest, transparent))
     return made
 
 
+def _merged(meshes: Sequence[PieceMesh], pieces: list[int], transparent: bool) -> Batch:
+    """One batch of many meshes. Shards have flat faces, so only the others are smoothed."""
+    surfaces, owners, start = [], [], 0
+    for smooth in (False, True):
+        own = [piece for piece in pieces if ("broken" not in meshes[piece].groups) == smooth]
+        if not own:
+            continue
+        position, normal, index, counts = _surface([meshes[piece] for piece in own], smooth=smooth)
+        surfaces.append((position, normal, index + np.uint32(start)))
+        owners.append(np.repeat(np.array(own, dtype=np.float32), counts))
+        start += len(position)
+    position, normal, index = (np.concatenate(parts) for parts in zip(*surfaces, strict=True))
+    return Batch(
+        position, normal, index, np.concatenate(owners), instanced=False, transparent=transparent
+    )
+
+
 def _surface(
-    meshes: list[PieceMesh],
+    meshes: list[PieceMesh], *, smooth: bool
 ) -> tuple[NDArray[np.float32], NDArray[np.int8], NDArray[np.uint32], NDArray[np.int64]]:
     """Positions, normals and triangles of meshes put together, and how many vertices each has given.
 
@@ -97,7 +111,7 @@ def _surface(
     )
     faces = np.repeat(np.arange(len(counts)), counts)
     areas = area_vectors(points, counts, corners)
-    if len({id(mesh) for mesh in meshes}) < ALL_FLAT:
+    if smooth:
         normals = smooth_normals(areas, faces, corners, face_labels(meshes))
     else:
         lengths = np.linalg.norm(areas, axis=1, keepdims=True)

@@ -21,10 +21,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from brisance.errors import InputError
+
 POSITION_STEPS = 2**18 - 1
 TURN_STEPS = 2**13 - 1
 WORST_TURN = 6e-4
 """Bound on the error of an orientation [rad]: twice the length √12 · 8.6e-5 of the quaternion's error."""
+
+FARTHEST = 1e15
+"""Distance [m] from the origin beyond which a place is an overflow and no flight."""
 
 ROW = 1024
 """Poses in one row of the table, which is padded to whole rows: a texture's width."""
@@ -51,7 +56,15 @@ class Poses:
 
 
 def pack_poses(positions: NDArray[np.float32], orientations: NDArray[np.float32]) -> Poses:
-    """Pack (F, B, 3) positions [m] and (F, B, 4) unit quaternions, F and B at least 1 and 0."""
+    """Pack (F, B, 3) positions [m] and (F, B, 4) unit quaternions, F and B at least 1 and 0.
+
+    Raises :class:`InputError` for pieces that are nowhere, as absurd masses and sizes make them.
+    """
+    if not (np.abs(positions) < FARTHEST).all() or not np.isfinite(orientations).all():
+        raise InputError(
+            "In this scene pieces fly farther than can be shown; look for a mass, size or position out of all "
+            "proportion."
+        )
     first, last = moving(positions, orientations)
     count = last - first + 1
     offset = np.cumsum(count) - count
