@@ -28,7 +28,8 @@ export class Colouring {
 
   constructor(private readonly stage: Stage) {
     this.select.append(make("option", { value: "" }, "Materials"));
-    for (const [key, way] of Object.entries(WAYS)) this.select.append(make("option", { value: key }, way.name));
+    for (const [key, way] of Object.entries(WAYS))
+      this.select.append(make("option", { value: key }, way.name));
     this.select.addEventListener("change", () => this.apply());
     this.element.append(make("label", {}, make("span", {}, "Colour"), this.select), this.legend);
     this.legend.hidden = true;

@@ -35,9 +35,11 @@ export class Controls {
     const others = names.filter((name) => !scalars.includes(name)).sort((a, b) => rank(a) - rank(b));
     const parts = others.map((name) => this.part(name, [name], this.root.properties?.[name] ?? {}));
     const general = this.section("scene", "scene", "The scene as a whole.");
-    for (const name of scalars) general.append(this.field(name, [name], this.root.properties?.[name] ?? {}, this.root));
+    for (const name of scalars)
+      general.append(this.field(name, [name], this.root.properties?.[name] ?? {}, this.root));
     this.element.append(...parts.slice(0, 1), general, ...parts.slice(1));
-    for (const part of this.element.querySelectorAll("details")) part.open = OPEN.includes(part.dataset.key ?? "");
+    for (const part of this.element.querySelectorAll("details"))
+      part.open = OPEN.includes(part.dataset.key ?? "");
   }
 
   /** Write a value from elsewhere (the gizmo) into the scene and its control. */
@@ -57,8 +59,10 @@ export class Controls {
     const key = /: ([a-z_]+(?:\.\w+)*)[ .]/.exec(sentence)?.[1];
     if (!key) return;
     const control = this.element.querySelector(`[data-key="${CSS.escape(key)}"]:not(details)`);
-    for (const input of control?.querySelectorAll("input, select") ?? []) input.setAttribute("aria-invalid", "true");
-    for (let part = control?.closest("details"); part; part = part.parentElement?.closest("details")) part.open = true;
+    for (const input of control?.querySelectorAll("input, select") ?? [])
+      input.setAttribute("aria-invalid", "true");
+    for (let part = control?.closest("details"); part; part = part.parentElement?.closest("details"))
+      part.open = true;
   }
 
   private kind(name: string): Kind {
@@ -99,7 +103,9 @@ export class Controls {
     for (const [name, own] of Object.entries(schema.properties ?? {})) {
       const inner = kindOf(own, this.root);
       const deeper = inner.kind === "table" || inner.kind === "tables";
-      into.append(deeper ? this.part(name, [...path, name], own) : this.field(name, [...path, name], own, schema));
+      into.append(
+        deeper ? this.part(name, [...path, name], own) : this.field(name, [...path, name], own, schema),
+      );
     }
   }
 
@@ -111,9 +117,16 @@ export class Controls {
     const hint = make("span", { class: "hidden", id: `${id}-hint` }, schema.description ?? "");
     const label = make("label", { for: id, title: schema.description }, plain(name));
     const control = this.control(kind, path, schema, id, owner.required?.includes(name) ?? false);
-    for (const input of control.querySelectorAll("input, select")) input.setAttribute("aria-describedby", hint.id);
+    for (const input of control.querySelectorAll("input, select"))
+      input.setAttribute("aria-describedby", hint.id);
     const unit = unitOf(schema.description);
-    const row = make("div", { class: `field ${kind.kind}`, "data-key": path.join(".") }, label, control, hint);
+    const row = make(
+      "div",
+      { class: `field ${kind.kind}`, "data-key": path.join(".") },
+      label,
+      control,
+      hint,
+    );
     if (unit) control.append(make("span", { class: "unit", "aria-hidden": true }, unit));
     if (kind.kind === "number") scrub(label, control.querySelector("input") as HTMLInputElement, kind.whole);
     return row;
@@ -138,14 +151,21 @@ export class Controls {
         return make("div", { class: "control" }, select);
       }
       case "number": {
-        const input = make("input", { type: "text", inputmode: "decimal", id, placeholder: empty, spellcheck: false });
+        const input = make("input", {
+          type: "text",
+          inputmode: "decimal",
+          id,
+          placeholder: empty,
+          spellcheck: false,
+        });
         input.value = value === undefined || value === null ? "" : String(value);
         steps(input, kind.whole);
         this.listen(input, (text) => this.turned(path, number(text), false));
         return make("div", { class: "control" }, input);
       }
       case "vector": {
-        const axes = kind.length === 3 ? ["x", "y", "z"] : Array.from({ length: kind.length }, (_, i) => `${i + 1}`);
+        const axes =
+          kind.length === 3 ? ["x", "y", "z"] : Array.from({ length: kind.length }, (_, i) => `${i + 1}`);
         const inputs = axes.map((axis, index) => {
           const input = make("input", {
             type: "text",
@@ -170,11 +190,19 @@ export class Controls {
         const input = make("input", { type: "text", id, placeholder: empty, spellcheck: false });
         input.value = value === undefined || value === null ? "" : String(value);
         const list = kind.examples.length > 0 ? this.examples(input, id, kind.examples) : [];
-        this.listen(input, (text) => this.turned(path, kind.numbers ? number(text) : text || undefined, false));
+        this.listen(input, (text) =>
+          this.turned(path, kind.numbers ? number(text) : text || undefined, false),
+        );
         return make("div", { class: "control" }, input, ...list);
       }
       default: {
-        const input = make("input", { type: "text", id, placeholder: empty, spellcheck: false, class: "data" });
+        const input = make("input", {
+          type: "text",
+          id,
+          placeholder: empty,
+          spellcheck: false,
+          class: "data",
+        });
         input.value = value === undefined || value === null ? "" : JSON.stringify(value);
         this.listen(input, (text) => this.turned(path, data(text), false));
         return make("div", { class: "control" }, input);
@@ -199,7 +227,10 @@ export class Controls {
   }
 
   private read(path: Path): unknown {
-    return path.reduce<unknown>((place, part) => (place as Record<string | number, unknown> | undefined)?.[part], this.tables);
+    return path.reduce<unknown>(
+      (place, part) => (place as Record<string | number, unknown> | undefined)?.[part],
+      this.tables,
+    );
   }
 
   /** Write a value; undefined takes the key out, so that its default holds. */
@@ -219,7 +250,8 @@ export class Controls {
 }
 
 function plain(name: string): string {
-  return name.replaceAll("_", " ").replace(/\btnt\b/, "TNT");
+  const words = name.replaceAll("_", " ").replace(/\btnt\b/, "TNT");
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** A text as a number where it is one; else as it stands, for the server to say what is wrong. */

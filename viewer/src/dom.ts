@@ -41,7 +41,8 @@ export function shown(value: number, digits = 3): string {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  return size >= 1e6 || size < 1e-3 ? value.toExponential(digits - 1) : Number(value.toPrecision(digits)).toString();
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(digits - 1);
+  return size >= 10 ** digits ? String(Math.round(value)) : value.toPrecision(digits);
 }
 
 /** Save bytes under a name. */

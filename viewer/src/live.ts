@@ -65,7 +65,9 @@ export class LiveView {
   /** Open a scene of the folder. */
   async open(file: string): Promise<void> {
     try {
-      const opened = (await (await fetched(`/api/scenes/${encodeURIComponent(file)}`)).json()) as { scene: Tables };
+      const opened = (await (await fetched(`/api/scenes/${encodeURIComponent(file)}`)).json()) as {
+        scene: Tables;
+      };
       this.file = file;
       this.fresh = true;
       this.list.value = file;
@@ -78,7 +80,9 @@ export class LiveView {
 
   private async begin(): Promise<void> {
     try {
-      const [schema, scenes] = await Promise.all(["/api/schema", "/api/scenes"].map((path) => fetched(path).then((r) => r.json())));
+      const [schema, scenes] = await Promise.all(
+        ["/api/schema", "/api/scenes"].map((path) => fetched(path).then((r) => r.json())),
+      );
       this.controls = new Controls(schema as Schema);
       this.controls.onChange = (done) => this.ask(done);
       this.viewer.page.side.append(this.controls.element);

@@ -35,7 +35,10 @@ export class PiecePanel {
     this.title.textContent = recording.header.names[piece] ?? "";
     this.material.textContent = source ? `${source.material}, of ${source.name}` : "";
     const row = (name: string, value: number, unit: string, scale = 1) =>
-      [make("dt", {}, name), make("dd", {}, `${shown(value * scale)}${Number.isFinite(value) ? ` ${unit}` : ""}`)] as const;
+      [
+        make("dt", {}, name),
+        make("dd", {}, `${shown(value * scale)}${Number.isFinite(value) ? ` ${unit}` : ""}`),
+      ] as const;
     const fact = (name: string) => recording.fact(name, piece);
     this.facts.replaceChildren(
       ...row("Mass", fact("mass_kg"), "kg"),
@@ -70,7 +73,10 @@ export class PiecePanel {
       ? `Incident overpressure at its first place: in the open (dashed), and times its attenuation ${shown(share)}.`
       : "Incident overpressure at its first place, in the open.";
     this.caption.textContent = `${what} Not the load on its faces, which reflect.`;
-    this.canvas.setAttribute("aria-label", `${what} Peak ${shown(Math.max(...pulses.map((p) => p.peak)) / 1e3)} kPa.`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `${what} Peak ${shown(Math.max(...pulses.map((p) => p.peak)) / 1e3)} kPa.`,
+    );
     draw(context, pulses, Number.isFinite(share) ? share : 1, time);
   }
 }
@@ -85,7 +91,9 @@ export function overpressure(pulses: Pulse[], time: number): number {
 
 function draw(context: CanvasRenderingContext2D, pulses: Pulse[], share: number, now: number): void {
   const style = getComputedStyle(context.canvas);
-  const [ink, faint, accent] = ["--ink", "--line", "--accent"].map((name) => style.getPropertyValue(name)) as [string, string, string];
+  const [ink, faint, accent] = ["--ink", "--line", "--accent"].map((name) =>
+    style.getPropertyValue(name),
+  ) as [string, string, string];
   const starts = pulses.map((pulse) => pulse.arrival);
   const ends = pulses.map((pulse) => pulse.arrival + pulse.duration);
   const span = Math.max(...ends) - Math.min(...starts) || 1e-3;

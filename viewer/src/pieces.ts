@@ -1,7 +1,14 @@
 // All pieces of a recording: a draw call a batch, their poses in a texture, nothing to do between frames but one number.
 
 import * as THREE from "three";
-import { MOST_LOOKS, noiseTexture, numberMaterial, pieceMaterial, shadowMaterial, type Uniforms } from "./looks";
+import {
+  MOST_LOOKS,
+  noiseTexture,
+  numberMaterial,
+  pieceMaterial,
+  shadowMaterial,
+  type Uniforms,
+} from "./looks";
 import type { Batch, Recording } from "./recording";
 
 export class Pieces {
@@ -54,10 +61,16 @@ export class Pieces {
   /** Show another recording; shapes that it shares with the last one stay on the graphics card. */
   show(recording: Recording): void {
     const { header } = recording;
-    if (header.row !== this.uniforms.posesARow?.value || header.pieces_a_row !== this.uniforms.piecesARow?.value) {
+    if (
+      header.row !== this.uniforms.posesARow?.value ||
+      header.pieces_a_row !== this.uniforms.piecesARow?.value
+    ) {
       throw new Error("This recording was made by another version of Brisance.");
     }
-    const [poses, table] = [this.uniforms.poseTable, this.uniforms.pieceTable] as [THREE.IUniform, THREE.IUniform];
+    const [poses, table] = [this.uniforms.poseTable, this.uniforms.pieceTable] as [
+      THREE.IUniform,
+      THREE.IUniform,
+    ];
     const rows = recording.poses.length / (3 * header.row);
     poses.value = dataTexture(poses.value, recording.poses, 3 * header.row, rows, wordFormat);
     const tableRows = recording.table.length / (16 * header.pieces_a_row);
@@ -83,7 +96,8 @@ export class Pieces {
     const width = this.uniforms.piecesARow?.value as number;
     const count = values instanceof Float32Array ? values.length : 0;
     const padded = new Float32Array(Math.max(1, Math.ceil(count / width)) * width);
-    if (values instanceof Float32Array) padded.set(values.map((value) => (Number.isFinite(value) ? value : -1e38)));
+    if (values instanceof Float32Array)
+      padded.set(values.map((value) => (Number.isFinite(value) ? value : -1e38)));
     valueTable.value = dataTexture(valueTable.value, padded, width, padded.length / width, valueFormat);
   }
 

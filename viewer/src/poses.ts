@@ -20,7 +20,10 @@ export function poseAt(recording: Recording, piece: number, frame: number): Pose
   if (share === 0) return first;
   const second = decode(recording, piece, before + 1);
   const position = mix(first.position, second.position, share);
-  const dot = first.orientation.reduce((sum, value, index) => sum + value * (second.orientation[index] ?? 0), 0);
+  const dot = first.orientation.reduce(
+    (sum, value, index) => sum + value * (second.orientation[index] ?? 0),
+    0,
+  );
   const turned = second.orientation.map((value) => (dot < 0 ? -value : value));
   const orientation = mix(first.orientation, turned, share);
   const length = Math.hypot(...orientation);
@@ -66,7 +69,11 @@ function moved(recording: Recording, piece: number, frame: number): number {
 }
 
 function place(recording: Recording, piece: number, frame: number): number {
-  const [offset, first, count] = [7, 8, 9].map((cell) => recording.cell(piece, cell)) as [number, number, number];
+  const [offset, first, count] = [7, 8, 9].map((cell) => recording.cell(piece, cell)) as [
+    number,
+    number,
+    number,
+  ];
   return offset + Math.min(Math.max(frame - first, 0), count - 1);
 }
 

@@ -20,7 +20,11 @@ interface Source {
 
 /** The menu of what can be saved; without a server, the picture alone. */
 export function saveMenu(source: Source, live: boolean): HTMLElement {
-  const menu = make("details", { class: "menu" }, make("summary", { role: "button", "aria-label": "Save" }, "Save"));
+  const menu = make(
+    "details",
+    { class: "menu" },
+    make("summary", { role: "button", "aria-label": "Save" }, "Save"),
+  );
   const list = make("div", { class: "items" });
   const add = (name: string, data: () => Promise<[string, Blob]>) => {
     const item = make("button", { type: "button" }, name);

@@ -49,7 +49,9 @@ export function kindOf(given: Schema, root: Schema): Kind {
   if (ways.length > 1) {
     const texts = ways.flatMap((way) => way.enum ?? (way.const === undefined ? [] : [way.const]));
     const numbers = ways.some((way) => way.type === "number" || way.type === "integer");
-    const plain = ways.every((way) => way.enum || way.const !== undefined || /number|integer|string/.test(way.type ?? ""));
+    const plain = ways.every(
+      (way) => way.enum || way.const !== undefined || /number|integer|string/.test(way.type ?? ""),
+    );
     return plain ? { kind: "text", examples: texts.map(String), numbers } : { kind: "data" };
   }
   if (schema.enum) return { kind: "choice", choices: schema.enum.map(String) };

@@ -7,6 +7,7 @@ import { Fronts } from "./front";
 import { Pieces } from "./pieces";
 import { positionAt } from "./poses";
 import { rampTexture } from "./ramp";
+import { placesOnCard } from "./readback";
 import type { Recording } from "./recording";
 import { Surroundings, type Theme } from "./surroundings";
 
@@ -16,8 +17,13 @@ const AZIMUTH = THREE.MathUtils.degToRad(20);
 const ELEVATION = THREE.MathUtils.degToRad(11);
 /** Pieces looked at to follow the action: of more, every so many-th. */
 const WATCHED = 4000;
-/** A frame that takes longer than this [ms] while playing has the next drawn more coarsely. */
+/** A picture that takes longer than this [ms] has the next drawn more coarsely, one that is quicker more finely. */
 const SLOW = 45;
+const QUICK = 20;
+/** Share of the full resolution at least. */
+const COARSEST = 0.4;
+/** After this long [ms] without a change, a coarse picture is drawn again in full. */
+const STILL = 180;
 
 export class Stage {
   readonly canvas: HTMLCanvasElement;
@@ -35,6 +41,9 @@ export class Stage {
   private radii = new Float32Array(0);
   private frame = 0;
   private coarse = 1;
+  private drawnAt = 1;
+  private changed = 0;
+  private drewBefore = false;
   private dirty = true;
 
   constructor(host: HTMLElement) {
@@ -46,7 +55,10 @@ export class Stage {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", "The scene. Drag to look around, scroll to come closer, click a piece for its facts.");
+    this.canvas.setAttribute(
+      "aria-label",
+      "The scene. Drag to look around, scroll to come closer, click a piece for its facts.",
+    );
     host.append(this.canvas);
     this.pieces = new Pieces(rampTexture());
     this.surroundings = new Surroundings(this.scene, this.renderer, this.pieces.uniforms.noise?.value);
@@ -126,6 +138,18 @@ export class Stage {
     return found;
   }
 
+  /** Where the graphics card puts the pieces at the frame now shown, x y z of each [m]. */
+  placesOnCard(): Float32Array {
+    return placesOnCard(this.renderer, this.pieces.uniforms, this.recording?.pieces ?? 0);
+  }
+
+  /** Point of the page at which a place [m] is seen. */
+  onPage(place: [number, number, number]): [number, number] {
+    const seen = new THREE.Vector3(...place).project(this.camera);
+    const box = this.canvas.getBoundingClientRect();
+    return [box.left + ((seen.x + 1) / 2) * box.width, box.top + ((1 - seen.y) / 2) * box.height];
+  }
+
   /** Look at one piece, or at everything. */
   lookAt(piece: number): void {
     if (piece < 0 || !this.recording) {
@@ -136,7 +160,7 @@ export class Stage {
     positionAt(this.recording, piece, this.frame, at);
     const radius = Math.max(0.15, this.radii[piece] ?? 0.15);
     const away = this.camera.position.clone().sub(this.orbit.target).normalize();
-    this.aim(new THREE.Vector3(...at), 5 * radius, away);
+    this.aim(new THREE.Vector3(...at), 3 * radius, away);
   }
 
   /** Something has changed: draw before long. */
@@ -144,30 +168,41 @@ export class Stage {
     this.dirty = true;
   }
 
-  /** Draw if anything has changed. `playing` allows a coarser picture where a fine one takes too long. */
-  draw(playing: boolean): void {
-    if (!playing && this.coarse !== 1) {
-      this.coarse = 1;
-      this.resize(this.canvas.parentElement as HTMLElement);
+  /**
+   * Draw if anything has changed. `now` is the page's clock and `spent` the time since the last call [ms]. Where
+   * pictures take long they are drawn coarsely as long as something changes, and in full as soon as nothing does.
+   */
+  draw(now: number, spent: number): void {
+    if (this.drewBefore && spent > SLOW) this.coarse = Math.max(COARSEST, this.coarse * 0.8);
+    else if (this.drewBefore && spent < QUICK) this.coarse = Math.min(1, this.coarse * 1.05);
+    this.drewBefore = this.dirty;
+    if (this.dirty) {
+      this.changed = now;
+      this.render(this.coarse);
+      this.afterDrawing();
+    } else if (!this.isFine && now - this.changed > STILL) {
+      this.render(1);
     }
-    if (!this.dirty) return;
-    this.dirty = false;
-    this.renderer.render(this.scene, this.camera);
-    this.afterDrawing();
   }
 
-  /** Tell how long the last frame took [ms], so that playing stays fluent on slow machines. */
-  paced(milliseconds: number): void {
-    if (milliseconds > SLOW && this.coarse > 0.5) {
-      this.coarse = Math.max(0.5, this.coarse * 0.85);
-      this.resize(this.canvas.parentElement as HTMLElement);
+  /** Whether the picture is as it will stay. */
+  get isFine(): boolean {
+    return this.drawnAt === 1 && !this.dirty;
+  }
+
+  private render(scale: number): void {
+    if (scale !== this.drawnAt) {
+      this.drawnAt = scale;
+      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * scale);
     }
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
   }
 
   /** The picture as PNG. */
   png(): Promise<Blob> {
     this.charges.gizmoShown = false;
-    this.renderer.render(this.scene, this.camera);
+    this.render(1);
     const url = this.canvas.toDataURL("image/png");
     this.charges.gizmoShown = true;
     this.touch();
@@ -178,14 +213,14 @@ export class Stage {
   private resize(host: HTMLElement): void {
     const { clientWidth: width, clientHeight: height } = host;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * this.coarse);
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * this.drawnAt);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     // A narrow picture is opened up, so that as much fits across.
     this.camera.fov = width > height ? 34 : Math.min(62, 34 * Math.sqrt(height / width));
     this.camera.updateProjectionMatrix();
-    this.touch();
-    this.draw(true);
+    // A canvas of another size is empty until it is drawn.
+    this.render(this.drawnAt);
   }
 
   private frameAll(): void {

@@ -91,10 +91,18 @@ export class Surroundings {
     this.sun.shadow.normalBias = 0.01;
     const earth = new THREE.MeshLambertMaterial();
     earth.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, { haze: this.haze, line: this.line, reach: this.reach, noise: { value: noise } });
+      Object.assign(shader.uniforms, {
+        haze: this.haze,
+        line: this.line,
+        reach: this.reach,
+        noise: { value: noise },
+      });
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", `#include <common>\n${GROUND_VERTEX_HEAD}`)
-        .replace("#include <begin_vertex>", "#include <begin_vertex>\nvPlace = (modelMatrix * vec4(position, 1.0)).xyz;");
+        .replace(
+          "#include <begin_vertex>",
+          "#include <begin_vertex>\nvPlace = (modelMatrix * vec4(position, 1.0)).xyz;",
+        );
       shader.fragmentShader = shader.fragmentShader
         .replace("#include <common>", `#include <common>\n${GROUND_FRAGMENT_HEAD}`)
         .replace("#include <color_fragment>", GROUND_COLOUR)

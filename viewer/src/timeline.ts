@@ -20,7 +20,13 @@ export class Timeline {
   /** Called whenever the shown time changes [s]. */
   onTime: (time: number) => void = () => {};
   private readonly playing = button("Play", icon(PLAY), () => this.toggle());
-  private readonly slider = make("input", { type: "range", min: 0, step: "any", value: 0, "aria-label": "Time" });
+  private readonly slider = make("input", {
+    type: "range",
+    min: 0,
+    step: "any",
+    value: 0,
+    "aria-label": "Time",
+  });
   private readonly speed = make("select", { "aria-label": "Speed" });
   private readonly clock = make("output", { class: "clock", "aria-live": "off" });
   private readonly marks = make("div", { class: "marks", "aria-hidden": true });

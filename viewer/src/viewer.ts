@@ -38,11 +38,8 @@ export class Viewer {
     const tick = (now: number) => {
       const spent = now - this.lastFrame;
       this.lastFrame = now;
-      if (this.timeline.isPlaying) {
-        this.stage.paced(spent);
-        this.timeline.advance(Math.min(spent, 250) / 1000);
-      }
-      this.stage.draw(this.timeline.isPlaying);
+      this.timeline.advance(Math.min(spent, 250) / 1000);
+      this.stage.draw(now, spent);
       requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
@@ -53,7 +50,9 @@ export class Viewer {
     const recording = new Recording(message, this.recording);
     const rows = recording.poses.length / (3 * recording.header.row);
     if (rows > this.stage.largestTexture) {
-      throw new Error("This recording has more poses than this graphics card holds; lower the frame rate or duration.");
+      throw new Error(
+        "This recording has more poses than this graphics card holds; lower the frame rate or duration.",
+      );
     }
     const name = this.recording?.header.names[this.selected];
     this.recording = recording;
@@ -87,7 +86,8 @@ export class Viewer {
       pressed = stage.charges.isPointedAt ? undefined : event;
     });
     stage.canvas.addEventListener("pointerup", (event) => {
-      if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > STILL) return;
+      if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > STILL)
+        return;
       if (!this.pickCharge(event)) this.select(stage.pick(event.clientX, event.clientY));
     });
     listenToKeys({

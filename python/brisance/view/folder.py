@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,9 @@ DEEPEST = 16
 COPIES = 3
 """A recording is held as poses, as its message and as what is being sent."""
 
+_PLAIN_NAME = re.compile(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*\.toml")
+_UNLISTED = "There is no such scene in the folder; choose one of the list."
+
 
 class ScenesFolder:
     """The ``.toml`` files of one folder that hold a charge; nothing outside it is read."""
@@ -34,7 +38,10 @@ class ScenesFolder:
 
     def tables(self, name: str) -> dict[str, Any]:
         """The tables of a scene, unchecked. Raises :class:`InputError` for a name that is not listed."""
-        data = read_tables(self._path(name))
+        path = self._path(name)
+        if not self._is_scene(path):
+            raise InputError(_UNLISTED)
+        data = read_tables(path)
         # Dates are the one thing TOML holds and JSON does not; as text they are refused by the model.
         plain: dict[str, Any] = json.loads(json.dumps(data, default=str))
         return plain
@@ -55,12 +62,16 @@ class ScenesFolder:
         return scene
 
     def _path(self, name: Any) -> Path:
-        if not isinstance(name, str) or name not in self.names():
-            raise InputError("There is no such scene in the folder; choose one of the list.")
-        return self._folder / name
+        """Path of a file of the folder itself: no other folder, nothing hidden, no link that leads out."""
+        if not isinstance(name, str) or not _PLAIN_NAME.fullmatch(name) or len(name) > 200:
+            raise InputError(_UNLISTED)
+        path = self._folder / name
+        if not path.is_file() or path.resolve().parent != self._root:
+            raise InputError(_UNLISTED)
+        return path
 
     def _is_scene(self, path: Path) -> bool:
-        if path.name.startswith(".") or not path.resolve().is_relative_to(self._root):
+        if not _PLAIN_NAME.fullmatch(path.name) or path.resolve().parent != self._root:
             return False
         try:
             return "charge" in read_tables(path)
