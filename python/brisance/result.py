@@ -118,8 +118,8 @@ class Result:
         return report(self)
 
     def write(self, path: Path | str, *, layout: str = "auto") -> None:
-        """Write the result; the suffix says what: .usd, .usda, .usdc, .usdz or .glb the animation, .html a page
-        that shows it, .json the report.
+        """Write the result; the suffix says what: .usd, .usda, .usdc, .usdz or .glb the animation, .html a
+        page that shows it, .json the report.
 
         ``layout`` concerns USD: ``"prims"`` is one prim a piece, ``"instancer"`` one compact array a frame,
         ``"auto"`` chooses by the number of pieces.

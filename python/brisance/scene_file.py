@@ -49,8 +49,9 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
 
 
 def read_tables(path: Path | str) -> dict[str, Any]:
-    """The tables of a scene file as plain data, not yet checked. Raises :class:`InputError` where it cannot be
-    read or is not TOML.
+    """The tables of a scene file as plain data, not yet checked.
+
+    Raises :class:`InputError` where it cannot be read or is not TOML.
     """
     return _parse(Path(path))
 
@@ -138,7 +139,7 @@ def _parse(path: Path) -> dict[str, Any]:
         raise InputError(f"{path} is not valid TOML: {reason[:1].lower()}{reason[1:]}.") from None
 
 
-def _where(path: Path, problem: Problem, changed: list[str]) -> str:
+def _where(path: Path, problem: Problem, changed: Sequence[str]) -> str:
     """The file, or the --set that wrote the key in question."""
     key = ".".join(str(part) for part in problem.key)
     by_flag = any(key == name or key.startswith(f"{name}.") or name.startswith(f"{key}.") for name in changed)

@@ -53,12 +53,11 @@ def simulate(
 ) -> Result:
     """Simulate a scene.
 
-    ``progress`` true shows a bar on stderr once the run has taken a second; a function is called every twentieth
-    of a second with the frames done and all frames, 0 of 0 while the loads are worked out, and whatever it
-    raises ends the run. ``threads`` bounds the threads used, 1
-    or more; the result is the same to the last bit whatever it is. Raises :class:`InputError` where the scene
-    cannot be run: files that are missing, or more frames and pieces than memory holds, which is found out
-    before any work.
+    ``progress`` true shows a bar on stderr once the run has taken a second; a function is called every
+    twentieth of a second with the frames done and all frames, 0 of 0 while the loads are worked out, and
+    whatever it raises ends the run. ``threads`` bounds the threads used, 1 or more; the result is the same to
+    the last bit whatever it is. Raises :class:`InputError` where the scene cannot be run: files that are
+    missing, or more frames and pieces than memory holds, which is found out before any work.
     """
     if threads is not None and threads < 1:
         raise InputError(f"threads must be 1 or more, not {threads}.")

@@ -1,4 +1,4 @@
-"""glTF results: whole files, read back by two other programs, every piece in its place and in its material."""
+"""glTF results: whole files, read back by two other programs, every piece in its place and material."""
 
 from __future__ import annotations
 
@@ -137,9 +137,7 @@ def test_blender_shows_every_piece_where_it_was_recorded(tmp_path: Path) -> None
         pose = np.array(pieces[name]["pose"])
         turn = Rotation.from_quat(result.orientations[FRAME, index, [1, 2, 3, 0]]).as_matrix()
         assert pose[:3, 3] == pytest.approx(BLENDER_FROM_WORLD @ result.positions[FRAME, index], abs=1e-5)
-        assert pose[:3, :3] == pytest.approx(
-            BLENDER_FROM_WORLD @ turn @ BLENDER_FROM_WORLD.T, abs=1e-5
-        )
+        assert pose[:3, :3] == pytest.approx(BLENDER_FROM_WORLD @ turn @ BLENDER_FROM_WORLD.T, abs=1e-5)
         glass = result.bodies.source[index] == "pane"
         assert pieces[name]["materials"] == (["glass", "glass_broken"] if glass else ["brick"])
         assert pieces[name]["parent"] == result.bodies.source[index]

@@ -32,7 +32,7 @@ SCENES = Path(__file__).parents[2] / "scenes"
 
 
 def angle_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angle [rad] of the rotation from one to the other, by the chord, which is exact for small angles too."""
+    """Angle [rad] of the rotation from one to the other, by the chord, exact for small angles too."""
     a = a / np.linalg.norm(a, axis=-1, keepdims=True)
     b = b / np.linalg.norm(b, axis=-1, keepdims=True)
     chord = np.minimum(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))

@@ -1,4 +1,4 @@
-"""The server of the live view: what it answers, whom it refuses, and that nothing it is sent brings it down."""
+"""The server of the live view: what it answers, whom it refuses, and that nothing sent brings it down."""
 
 from __future__ import annotations
 
@@ -283,7 +283,9 @@ def test_no_file_outside_the_folder_is_served(server: Server, path: str) -> None
     assert SECRET.encode() not in body and b"root:" not in body
 
 
-@pytest.mark.parametrize("file", ["../secret.obj", "/etc/passwd", "meshes/../../secret.obj", "a\0b", "~/../../x"])
+@pytest.mark.parametrize(
+    "file", ["../secret.obj", "/etc/passwd", "meshes/../../secret.obj", "a\0b", "~/../../x"]
+)
 def test_no_file_outside_the_folder_is_read_for_a_scene(server: Server, file: str) -> None:
     scenes = [
         {**wall(), "mesh": [{"file": file, "mass": 1, "position": [3, 1, 0]}]},
@@ -326,7 +328,17 @@ def test_memory_is_asked_before_any_work(server: Server, monkeypatch: pytest.Mon
 
 @pytest.mark.parametrize(
     "text",
-    ["", "nonsense", "[1, 2]", "{}", '{"id": "x"}', '{"id": 1.5}', '{"id": true}', "[" * 5000, '{"id": 1e999}'],
+    [
+        "",
+        "nonsense",
+        "[1, 2]",
+        "{}",
+        '{"id": "x"}',
+        '{"id": 1.5}',
+        '{"id": true}',
+        "[" * 5000,
+        '{"id": 1e999}',
+    ],
 )
 def test_malformed_requests_are_answered(server: Server, text: str) -> None:
     with server.live() as link:
@@ -336,7 +348,7 @@ def test_malformed_requests_are_answered(server: Server, text: str) -> None:
         link.send(b"\0\1binary")
         assert "error" in json.loads(str(link.recv(timeout=20)))
         assert ask(link, 5, wall())[0]["id"] == 5
-    if text not in ("{}", '{"id": "x"}', '{"id": 1.5}', '{"id": true}', '{"id": 1e999}'):
+    if not text.startswith("{"):
         status, body, _ = server.request("POST", "/api/save/toml", text, content_type="application/json")
         assert status == 422 and b"A request must be" in body
 
@@ -344,9 +356,10 @@ def test_malformed_requests_are_answered(server: Server, text: str) -> None:
 def test_oversized_requests_are_refused(server: Server) -> None:
     large = b"x" * (LARGEST_BODY + 1)
     assert server.request("POST", "/api/save/toml", large, content_type="application/json")[0] == 413
-    with server.live() as link, pytest.raises(ConnectionClosed):
+    with server.live() as link:
         link.send(large.decode())
-        link.recv(timeout=20)
+        with pytest.raises(ConnectionClosed):
+            link.recv(timeout=20)
     # A body without a length, in chunks, that never ends by itself.
     link2 = http.client.HTTPConnection(server.host, server.port, timeout=20)
     link2.putrequest("POST", "/api/save/toml")
@@ -407,15 +420,15 @@ def test_many_pages_at_once(server: Server) -> None:
 # What follows sends a few thousand requests that nobody would write by hand.
 
 ODD: list[Any] = [
-    None, True, False, 0, -1, 1e308, -1e308, 1e-308, 2**63, 2**70, 10**400, float("nan"), float("inf"), "", "x", "0",
-    "../x", "/", "\0", "\ud800", "é" * 200, [], [[]], {}, {"a": {}}, [0, 0], [0, 0, 0, 0], [None] * 3, ["a", "b", "c"],
-    [1e308] * 3, {"": ""}, [{}], "kingery", "surface",
+    None, True, False, 0, -1, 1e308, -1e308, 1e-308, 2**63, 2**70, 10**400, float("nan"), float("inf"), "",
+    "x", "0", "../x", "/", "\0", "\ud800", "é" * 200, [], [[]], {}, {"a": {}}, [0, 0], [0, 0, 0, 0],
+    [None] * 3, ["a", "b", "c"], [1e308] * 3, {"": ""}, [{}], "kingery", "surface",
 ]  # fmt: skip
 
 
 def mutated(value: Any, chance: random.Random, rate: float = 0.12) -> Any:
-    """A scene with parts replaced by something odd (with the probability ``rate``), taken out, renamed or doubled
-    (less often).
+    """A scene with parts replaced by something odd, with the probability ``rate``; or, less often, taken
+    out, renamed or doubled.
     """
     if isinstance(value, dict):
         made = {}
@@ -462,20 +475,38 @@ def test_a_flood_of_requests_is_answered_at_its_end(server: Server) -> None:
     with server.live() as link:
         for number in range(1000):
             scene = chance.choice([mutated(wall(), chance), endless(), wall(), chance.choice(ODD)])
-            link.send(json.dumps({"id": number, "file": chance.choice(["brick_wall.toml", "x"]), "scene": scene}))
+            link.send(
+                json.dumps({"id": number, "file": chance.choice(["brick_wall.toml", "x"]), "scene": scene})
+            )
         assert ask(link, 99_999, wall())[0]["id"] == 99_999
     assert server.settles()
 
 
 def test_a_thousand_odd_http_requests_leave_the_server_alive(server: Server) -> None:
     chance = random.Random(3)
-    paths = ["/", "/api/scenes", "/api/scenes/", "/api/schema", "/api/live", "/api/save/usdc", "/viewer.js", "/api"]
+    paths = [
+        "/",
+        "/api/scenes",
+        "/api/scenes/",
+        "/api/schema",
+        "/api/live",
+        "/api/save/usdc",
+        "/viewer.js",
+        "/api",
+    ]
     pieces = ["..", "%2e%2e", "%00", "%ff", "a" * 300, "?", "#", "//", "\\", "%", ";", ":", "é"]
     for _ in range(1000):
         path = chance.choice(paths) + "".join(chance.choices(pieces, k=chance.randrange(3)))
         method = chance.choice(["GET", "POST", "PUT", "DELETE", "HEAD", "OPTIONS", "TRACE", "X"])
         extra = chance.choice(
-            ["", "Range: bytes=9-1\r\n", "Content-Length: 5\r\n", "Content-Length: -1\r\n", "Cookie: a\r\n", "X:\r\n"]
+            [
+                "",
+                "Range: bytes=9-1\r\n",
+                "Content-Length: 5\r\n",
+                "Content-Length: -1\r\n",
+                "Cookie: a\r\n",
+                "X:\r\n",
+            ]
         )
         kind = chance.choice(["application/json", "text/html", ""])
         body = chance.choice(["", "{}", "nul", "[[", "\x00\x01"])
@@ -501,7 +532,8 @@ def test_frames_that_are_no_conversation_leave_the_server_alive(server: Server) 
     chance = random.Random(5)
     hello = (
         f"GET /api/live HTTP/1.1\r\nHost: {server.host}:{server.port}\r\nUpgrade: websocket\r\n"
-        "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+        "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+        "Sec-WebSocket-Version: 13\r\n\r\n"
     )
     for _ in range(200):
         answer = raw(server, hello.encode() + chance.randbytes(chance.randrange(1, 200)))

@@ -8,8 +8,25 @@ export const MOST_LOOKS = 16;
 
 const TEXELS = 32;
 
+/** What all shaders of the pieces share; see docs/live-view-format.md for the tables. */
 export interface Uniforms {
   [name: string]: THREE.IUniform;
+  poseTable: THREE.IUniform<THREE.DataTexture | null>;
+  pieceTable: THREE.IUniform<THREE.DataTexture | null>;
+  /** A value of each piece to colour it by. */
+  valueTable: THREE.IUniform<THREE.DataTexture | null>;
+  posesARow: THREE.IUniform<number>;
+  piecesARow: THREE.IUniform<number>;
+  frame: THREE.IUniform<number>;
+  frameRate: THREE.IUniform<number>;
+  selected: THREE.IUniform<number>;
+  /** 0: materials; 1: the value table; 2: speed. */
+  colouring: THREE.IUniform<number>;
+  range: THREE.IUniform<THREE.Vector2>;
+  noise: THREE.IUniform<THREE.Data3DTexture>;
+  lookColour: THREE.IUniform<THREE.Vector4[]>;
+  lookBroken: THREE.IUniform<THREE.Vector4[]>;
+  lookNature: THREE.IUniform<THREE.Vector4[]>;
 }
 
 const VERTEX_HEAD = /* glsl */ `
@@ -160,10 +177,10 @@ export function numberMaterial(uniforms: Uniforms): THREE.ShaderMaterial {
 }
 
 /** The tables' widths are constants of the format, so they are written into the shader. */
-function sized(text: string, uniforms: Uniforms): string {
+export function sized(text: string, uniforms: Uniforms): string {
   return text
-    .replaceAll("POSES_A_ROW", `${uniforms.posesARow?.value as number}`)
-    .replaceAll("PIECES_A_ROW", `${uniforms.piecesARow?.value as number}`);
+    .replaceAll("POSES_A_ROW", `${uniforms.posesARow.value}`)
+    .replaceAll("PIECES_A_ROW", `${uniforms.piecesARow.value}`);
 }
 
 /** A tile of two noises in space: patches in red, grain in green. */

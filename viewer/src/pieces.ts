@@ -62,38 +62,38 @@ export class Pieces {
   show(recording: Recording): void {
     const { header } = recording;
     if (
-      header.row !== this.uniforms.posesARow?.value ||
-      header.pieces_a_row !== this.uniforms.piecesARow?.value
+      header.row !== this.uniforms.posesARow.value ||
+      header.pieces_a_row !== this.uniforms.piecesARow.value
     ) {
       throw new Error("This recording was made by another version of Brisance.");
     }
-    const [poses, table] = [this.uniforms.poseTable, this.uniforms.pieceTable] as [
-      THREE.IUniform,
-      THREE.IUniform,
-    ];
+    const { poseTable, pieceTable, lookColour, lookBroken, lookNature } = this.uniforms;
     const rows = recording.poses.length / (3 * header.row);
-    poses.value = dataTexture(poses.value, recording.poses, 3 * header.row, rows, wordFormat);
+    poseTable.value = dataTexture(poseTable.value, recording.poses, 3 * header.row, rows, wordFormat);
     const tableRows = recording.table.length / (16 * header.pieces_a_row);
-    table.value = dataTexture(table.value, recording.table, 4 * header.pieces_a_row, tableRows, cellFormat);
+    pieceTable.value = dataTexture(
+      pieceTable.value,
+      recording.table,
+      4 * header.pieces_a_row,
+      tableRows,
+      cellFormat,
+    );
     if (this.shown?.batches !== recording.batches) this.build(recording.batches);
     header.looks.slice(0, MOST_LOOKS).forEach((look, index) => {
-      const fill = (name: string, ...values: [number, number, number, number]) =>
-        (this.uniforms[name]?.value[index] as THREE.Vector4).set(...values);
-      fill("lookColour", ...look.colour, look.opacity);
-      fill("lookBroken", ...look.broken, 1);
-      fill("lookNature", look.roughness, look.metallic, look.spread, look.name === "wood" ? 1 : 0);
+      lookColour.value[index]?.set(...look.colour, look.opacity);
+      lookBroken.value[index]?.set(...look.broken, 1);
+      lookNature.value[index]?.set(look.roughness, look.metallic, look.spread, look.name === "wood" ? 1 : 0);
     });
-    if (this.uniforms.frameRate) this.uniforms.frameRate.value = header.frame_rate;
+    this.uniforms.frameRate.value = header.frame_rate;
     this.shown = recording;
   }
 
   /** Colour the pieces by a value of each, NaN where there is none; null for their materials, "speed" for their speed. */
   colour(values: Float32Array | "speed" | null, range: [number, number] = [0, 1]): void {
-    const { colouring, valueTable } = this.uniforms as Record<string, THREE.IUniform>;
-    if (!colouring || !valueTable) return;
+    const { colouring, valueTable } = this.uniforms;
     colouring.value = values === null ? 0 : values === "speed" ? 2 : 1;
-    (this.uniforms.range?.value as THREE.Vector2).set(...range);
-    const width = this.uniforms.piecesARow?.value as number;
+    this.uniforms.range.value.set(...range);
+    const width = this.uniforms.piecesARow.value;
     const count = values instanceof Float32Array ? values.length : 0;
     const padded = new Float32Array(Math.max(1, Math.ceil(count / width)) * width);
     if (values instanceof Float32Array)

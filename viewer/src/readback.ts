@@ -1,7 +1,7 @@
 // Where the graphics card puts the pieces, read back from it: for tests, which compare it with the report.
 
 import * as THREE from "three";
-import type { Uniforms } from "./looks";
+import { sized, type Uniforms } from "./looks";
 import { PLACED, POSE_FUNCTIONS } from "./shaders";
 
 const WIDTH = 256;
@@ -18,13 +18,9 @@ export function placesOnCard(renderer: THREE.WebGLRenderer, uniforms: Uniforms, 
       1,
     ),
   );
-  const functions = POSE_FUNCTIONS.replaceAll("POSES_A_ROW", String(uniforms.posesARow?.value)).replaceAll(
-    "PIECES_A_ROW",
-    String(uniforms.piecesARow?.value),
-  );
   const material = new THREE.ShaderMaterial({
     uniforms,
-    vertexShader: `${functions}
+    vertexShader: `${sized(POSE_FUNCTIONS, uniforms)}
       varying vec3 vPlace;
       void main() {
         ${PLACED}

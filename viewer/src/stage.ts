@@ -61,7 +61,7 @@ export class Stage {
     );
     host.append(this.canvas);
     this.pieces = new Pieces(rampTexture());
-    this.surroundings = new Surroundings(this.scene, this.renderer, this.pieces.uniforms.noise?.value);
+    this.surroundings = new Surroundings(this.scene, this.renderer, this.pieces.uniforms.noise.value);
     this.orbit = new OrbitControls(this.camera, this.canvas);
     this.orbit.enableDamping = false;
     this.orbit.maxPolarAngle = 0.94 * Math.PI;
@@ -114,7 +114,7 @@ export class Stage {
   /** Show the time of a frame, which may lie between two. */
   setFrame(frame: number): void {
     this.frame = frame;
-    if (this.pieces.uniforms.frame) this.pieces.uniforms.frame.value = frame;
+    this.pieces.uniforms.frame.value = frame;
     if (this.recording) {
       const time = frame / this.recording.header.frame_rate;
       this.fronts.setTime(time);
@@ -126,7 +126,7 @@ export class Stage {
   }
 
   select(piece: number): void {
-    if (this.pieces.uniforms.selected) this.pieces.uniforms.selected.value = piece;
+    this.pieces.uniforms.selected.value = piece;
     this.touch();
   }
 

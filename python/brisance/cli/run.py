@@ -54,8 +54,8 @@ def run(
     if output is not None:
         if check_writable(output).suffix.lower() not in ANIMATION_SUFFIXES:
             raise InputError(
-                f"-o {output}: an animation is USD, glTF or a page, so give a name that ends in .usdc (or .usda, "
-                ".usd, .usdz), .glb or .html."
+                f"-o {output}: an animation is USD, glTF or a page, so give a name that ends in .usdc (or "
+                ".usda, .usd, .usdz), .glb or .html."
             )
         check_output(output)
     if report is not None:

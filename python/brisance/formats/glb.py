@@ -7,8 +7,8 @@
     materials                brick; brick_broken for fracture surfaces, as a second primitive of a mesh
     animation "blast"        translation and rotation of each piece that moves, a key a frame while it does
 
-glTF's own axes and units are ours: right-handed, Y up, metres, seconds. Pieces that share a mesh share it here.
-The charge and the ground are left out.
+glTF's own axes and units are ours: right-handed, Y up, metres, seconds. Pieces that share a mesh share it
+here too. The charge and the ground are left out.
 """
 
 from __future__ import annotations
@@ -136,7 +136,9 @@ def _object(made: _Builder, result: Result, source: Source) -> int:
         }
         children.append(made.add("nodes", node))
     made.piece_nodes += children
-    return made.add("nodes", {"name": source.name, "children": children} if children else {"name": source.name})
+    return made.add(
+        "nodes", {"name": source.name, "children": children} if children else {"name": source.name}
+    )
 
 
 def _animate(made: _Builder, result: Result) -> None:
@@ -185,14 +187,14 @@ def _primitives(made: _Builder, mesh: PieceMesh, material: str) -> list[dict[str
         # glTF counts the second coordinate from the top.
         uvs = np.column_stack([mesh.uvs[:, 0], 1.0 - mesh.uvs[:, 1]]).astype(np.float32)
         attributes["TEXCOORD_0"] = made.accessor(made.view(uvs, _VERTICES), "VEC2", len(points))
-    broken = np.isin(owners, mesh.groups["broken"]) if "broken" in mesh.groups else np.zeros(len(owners), bool)
+    broken = (
+        np.isin(owners, mesh.groups["broken"]) if "broken" in mesh.groups else np.zeros(len(owners), bool)
+    )
     primitives = []
     for cut in (False, True):
         chosen = triangles[broken == cut].astype(np.uint32).reshape(-1)
         if len(chosen):
-            indices = made.accessor(
-                made.view(chosen, _INDICES), "SCALAR", len(chosen), componentType=_UINT
-            )
+            indices = made.accessor(made.view(chosen, _INDICES), "SCALAR", len(chosen), componentType=_UINT)
             own = made.material(material, broken=cut)
             primitives.append({"attributes": attributes, "indices": indices, "material": own})
     return primitives

@@ -7,7 +7,6 @@ across the border of a face group (a fracture surface meets the outside in a har
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray

@@ -21,11 +21,11 @@ import brisance
 from brisance.errors import InputError
 from brisance.formats.html import STATIC
 from brisance.view.folder import ScenesFolder
-from brisance.view.guard import Guard, TooLarge
+from brisance.view.guard import Guard, TooLargeError
 from brisance.view.live import Conversation
 from brisance.view.saving import KINDS, file_name, saved
 from brisance.view.schema import schema
-from brisance.view.work import CalledOff, Job, Workers, sentence
+from brisance.view.work import CalledOffError, Job, Workers, sentence
 
 MOST_PAGES = 32
 """Pages open at a time."""
@@ -55,7 +55,7 @@ def make_app(
         middleware=[Middleware(Guard, names=tuple(names), any_address=any_address)],
         exception_handlers={
             InputError: _refused,
-            TooLarge: _too_large,
+            TooLargeError: _too_large,
             HTTPException: _http_error,
             Exception: _unexpected,
         },
@@ -97,9 +97,9 @@ class _View:
         try:
             while not (await asyncio.wait({run}, timeout=0.25))[0]:
                 if await request.is_disconnected():
-                    raise CalledOff
+                    raise CalledOffError
             data = run.result()
-        except CalledOff:
+        except CalledOffError:
             return Response(status_code=499)
         finally:
             run.cancel()

@@ -89,8 +89,8 @@ class ScenesFolder:
             if outside:
                 shown = text if len(text) <= 40 else f"{text[:37]}..."
                 raise InputError(
-                    f"{path}: {on_one_line(key)} {shown!r} leads out of the scenes folder; put the file into it, or start "
-                    "brisance view with a wider --folder."
+                    f"{path}: {on_one_line(key)} {shown!r} leads out of the scenes folder; put the file into "
+                    "it, or start brisance view with a wider --folder."
                 )
 
 

@@ -94,7 +94,7 @@ class Guard:
         return True
 
 
-class TooLarge(Exception):
+class TooLargeError(Exception):
     """A body went on beyond :data:`LARGEST_BODY`."""
 
 
@@ -107,7 +107,7 @@ def _counted(receive: Receive) -> Receive:
         message = await receive()
         size += len(message.get("body", b""))
         if size > LARGEST_BODY:
-            raise TooLarge
+            raise TooLargeError
         return message
 
     return counted

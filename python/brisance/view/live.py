@@ -18,7 +18,7 @@ from brisance.errors import InputError
 from brisance.formats.packed import pack
 from brisance.simulation import simulate
 from brisance.view.folder import ScenesFolder
-from brisance.view.work import GLANCE, CalledOff, Job, Workers, sentence
+from brisance.view.work import GLANCE, CalledOffError, Job, Workers, sentence
 
 
 class Conversation:
@@ -58,7 +58,7 @@ class Conversation:
             message = await self._simulated(request)
             async with self._sending:
                 await self._socket.send_bytes(message)
-        except (asyncio.CancelledError, CalledOff, WebSocketDisconnect):
+        except (asyncio.CancelledError, CalledOffError, WebSocketDisconnect):
             return
         except BaseException as error:
             await self._say({"id": number, "error": sentence(error)})

@@ -8,7 +8,6 @@ from brisance import _engine
 from brisance.curve_table import BUILT_IN
 from brisance.scene_file import SceneFile
 
-
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 """JSON schema's names of bounds that pydantic leaves under its own where a value is converted first."""
 

@@ -26,7 +26,7 @@ GLANCE = 0.05
 T = TypeVar("T")
 
 
-class CalledOff(Exception):
+class CalledOffError(Exception):
     """The run is no longer wanted."""
 
 
@@ -43,9 +43,9 @@ class Job:
         self._stop.set()
 
     def goes_on(self, done: int = 0, total: int = 0) -> None:
-        """What a run calls now and then; raises :class:`CalledOff` when it is no longer wanted."""
+        """What a run calls now and then; raises :class:`CalledOffError` when it is no longer wanted."""
         if self._stop.is_set():
-            raise CalledOff
+            raise CalledOffError
         self.progress = (done, total)
 
 

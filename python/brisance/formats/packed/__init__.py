@@ -53,11 +53,12 @@ Array = NDArray[Any]
 
 def check_shown(scene: Scene) -> None:
     """Raise :class:`InputError` if a recording of the scene is more than the live view can hold."""
-    poses = scene.time.frames * scene.piece_count
     if scene.piece_count > MOST_PIECES:
         raise InputError(
-            f"{scene.piece_count:,} pieces are more than the live view shows ({MOST_PIECES:,}); lower their number."
+            f"{scene.piece_count:,} pieces are more than the live view shows ({MOST_PIECES:,}); "
+            "lower their number."
         )
+    poses = scene.time.frames * scene.piece_count
     if poses > MOST_POSES:
         raise InputError(
             f"{scene.time.frames:,} frames of {scene.piece_count:,} pieces are more than the live view shows "
@@ -65,7 +66,7 @@ def check_shown(scene: Scene) -> None:
         )
 
 
-# Masses and places of absurd size overflow to infinity, which is then shown as such; that is no reason to fail.
+# Masses and places of absurd size overflow to infinity, which is shown as such: no reason to fail.
 @np.errstate(over="ignore", invalid="ignore")
 def pack(result: Result, *, known: str = "", extra: Mapping[str, Any] | None = None) -> bytes:
     """The message of a result.
@@ -88,7 +89,9 @@ def pack(result: Result, *, known: str = "", extra: Mapping[str, Any] | None = N
         **_header(result),
         "looks": looks,
         "geometry": key,
-        "batches": None if key == known else [_describe(shapes, arrays, index) for index in range(len(shapes))],
+        "batches": None
+        if key == known
+        else [_describe(shapes, arrays, index) for index in range(len(shapes))],
         **(extra or {}),
     }
     return assemble(header, arrays)
@@ -198,5 +201,5 @@ def _key(shapes: list[Batch]) -> str:
     for shape in shapes:
         digest.update(bytes((shape.instanced, shape.transparent)))
         for array in (shape.position, shape.normal, shape.index, shape.piece):
-            digest.update(np.ascontiguousarray(array))
+            digest.update(array.tobytes())
     return digest.hexdigest()

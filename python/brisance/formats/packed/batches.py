@@ -91,9 +91,7 @@ def _merged(meshes: Sequence[PieceMesh], pieces: list[int], transparent: bool) -
         owners.append(np.repeat(np.array(own, dtype=np.float32), counts))
         start += len(position)
     position, normal, index = (np.concatenate(parts) for parts in zip(*surfaces, strict=True))
-    return Batch(
-        position, normal, index, np.concatenate(owners), instanced=False, transparent=transparent
-    )
+    return Batch(position, normal, index, np.concatenate(owners), instanced=False, transparent=transparent)
 
 
 def _surface(

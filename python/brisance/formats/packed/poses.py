@@ -7,8 +7,8 @@ orientation, and a bit of the number of the component that is left out (none in 
   in; the box is 2^18 - 1 steps wide. The error is at most half a step: 0.2 mm for a flight of 100 m.
 - **Orientation**: "smallest three". Of a unit quaternion the largest component is left out and made positive
   (q and -q are the same rotation); the others lie within ±1/√2 and are counted in 2^13 - 1 steps. Each errs
-  by at most half a step, 8.6e-5; the component left out, at least 1/2, errs by at most three times that. So the
-  rotation errs by less than :data:`WORST_TURN`: 0.03 degrees, 0.3 mm at half a metre from the centre.
+  by at most half a step, 8.6e-5; the component left out, at least 1/2, errs by at most three times that. So
+  the rotation errs by less than :data:`WORST_TURN`: 0.03 degrees, 0.3 mm at half a metre from the centre.
 
 A piece has poses from its last frame at rest to its first frame at its final pose; a viewer holds the first
 and the last.
@@ -62,8 +62,8 @@ def pack_poses(positions: NDArray[np.float32], orientations: NDArray[np.float32]
     """
     if not (np.abs(positions) < FARTHEST).all() or not np.isfinite(orientations).all():
         raise InputError(
-            "In this scene pieces fly farther than can be shown; look for a mass, size or position out of all "
-            "proportion."
+            "In this scene pieces fly farther than can be shown; look for a mass, size or position out of "
+            "all proportion."
         )
     first, last = moving(positions, orientations)
     count = last - first + 1

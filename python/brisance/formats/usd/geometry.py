@@ -1,7 +1,7 @@
 """Piece meshes as USD arrays: every distinct mesh converted once, in a few whole-array operations.
 
-Normals are authored rather than left to the viewer, as :mod:`brisance.formats.normals` has them. A mesh on which nothing is smooth, a brick or a shard, carries one normal a face
-instead of one a corner.
+Normals are authored rather than left to the viewer, as :mod:`brisance.formats.normals` has them. A mesh on
+which nothing is smooth, a brick or a shard, carries one normal a face instead of one a corner.
 """
 
 from __future__ import annotations
