@@ -25,7 +25,7 @@ void main() {
   float facing = abs(dot(normalize(cameraPosition - vPlace), normalize(vNormal)));
   float rim = pow(1.0 - facing, 3.5);
   float foot = 1.0 - smoothstep(0.0, 0.03 + 0.012 * radius, vPlace.y - ground);
-  gl_FragColor = vec4(colour, strength * (0.04 + 0.5 * rim + 0.5 * foot));
+  gl_FragColor = vec4(colour, strength * (0.05 + 0.55 * rim + 0.6 * foot));
   #include <tonemapping_fragment>
   #include <colorspace_fragment>
 }`;
@@ -52,7 +52,7 @@ export class Fronts {
   }
 
   setTheme(dark: boolean): void {
-    this.colour.value.set(dark ? 0xffc48a : 0xffffff);
+    this.colour.value.set(dark ? 0xffc48a : 0xfff6e8);
   }
 
   setTime(time: number): void {

@@ -93,7 +93,7 @@ if (colouring > 0) {
 const GLOW = /* glsl */ `
 if (vSelected > 0.5) {
   float edge = pow(1.0 - abs(dot(normalize(vViewPosition), normal)), 2.0);
-  totalEmissiveRadiance += accent * (0.16 + 0.55 * edge);
+  totalEmissiveRadiance += accent * (0.22 + 0.6 * edge);
 }
 `;
 

@@ -14,6 +14,7 @@ interface Daylight {
   reflected: number;
   earth: number;
   line: number;
+  exposure: number;
 }
 
 /** A clear day, and the last light after one. */
@@ -28,17 +29,19 @@ const DAYLIGHT: Record<Theme, Daylight> = {
     reflected: 0.35,
     earth: 0xa39580,
     line: 0x4a4236,
+    exposure: 0.95,
   },
   dark: {
     zenith: 0x10182a,
     horizon: 0x59636f,
     nadir: 0x1c1d20,
-    sun: 0xffe2c4,
+    sun: 0xffe9d6,
     sunlight: 2.6,
-    skylight: 2.6,
-    reflected: 0.9,
-    earth: 0x4a4e54,
-    line: 0x9fb0c8,
+    skylight: 3.2,
+    reflected: 1.7,
+    earth: 0x5d646c,
+    line: 0xb4c2d6,
+    exposure: 1.35,
   },
 };
 
@@ -150,6 +153,7 @@ export class Surroundings {
 
   setTheme(theme: Theme): void {
     const day = DAYLIGHT[theme];
+    this.renderer.toneMappingExposure = day.exposure;
     this.sun.color.set(day.sun);
     this.sun.intensity = day.sunlight;
     this.sky.color.set(day.horizon).lerp(new THREE.Color(day.zenith), 0.35);

@@ -288,6 +288,64 @@ describe("the controls", () => {
     );
   });
 
+  test("an object that the page has never heard of has its controls, too", async () => {
+    const page = await browser.newPage(SMALL);
+    const number = { type: "number", exclusiveMinimum: 0 };
+    await page.route("**/api/schema", async (route) => {
+      const schema = await (await route.fetch()).json();
+      schema.$defs.Pattern = {
+        type: "object",
+        properties: {
+          pieces: {
+            anyOf: [{ type: "integer" }, { type: "null" }],
+            default: null,
+            description: "How many [1].",
+          },
+          seeds: {
+            type: "array",
+            items: { type: "array", prefixItems: [number, number] },
+            description: "Where.",
+          },
+        },
+      };
+      schema.$defs.Window = {
+        type: "object",
+        required: ["width"],
+        properties: {
+          width: { ...number, description: "Width [m]." },
+          pattern: { $ref: "#/$defs/Pattern", description: "How it breaks." },
+        },
+      };
+      schema.properties.window = { type: "array", items: { $ref: "#/$defs/Window" }, description: "Panes." };
+      await route.fulfill({ json: schema });
+    });
+    await page.route("**/api/scenes/*", async (route) => {
+      const opened = await (await route.fetch()).json();
+      opened.scene.window = [{ name: "left", width: 1.5, pattern: {} }, { width: 2 }];
+      await route.fulfill({ json: opened });
+    });
+    await page.goto(server.address);
+    const pieces = page.locator('[data-key="window.0.pattern.pieces"] input');
+    await pieces.waitFor({ state: "attached" });
+    const fill = (key, value) =>
+      page.evaluate(
+        ([key_, value_]) => {
+          const input = document.querySelector(`[data-key="${key_}"] input`);
+          input.value = value_;
+          input.dispatchEvent(new Event("input", { bubbles: true }));
+        },
+        [key, value],
+      );
+    await fill("window.0.pattern.pieces", "300");
+    await fill("window.1.pattern.seeds", "[[0.5, 0.25]]");
+    await fill("window.1.width", "2.5");
+    assert.deepEqual((await scene(page)).window, [
+      { name: "left", width: 1.5, pattern: { pieces: 300 } },
+      { width: 2.5, pattern: { seeds: [[0.5, 0.25]] } },
+    ]);
+    await page.close();
+  });
+
   test("another scene opens from the list", async () => {
     const page = await fresh();
     await answer(page, () => page.getByLabel("Scene to open").selectOption("crates.toml"));

@@ -58,7 +58,7 @@ class ScenesFolder:
         self._check_files(path, data)
         scene = scene_of(data, path)
         check_shown(scene)
-        check_fits(scene.time.frames, COPIES * scene.piece_count)
+        check_fits(scene.time.frames, scene.piece_count, copies=COPIES)
         return scene
 
     def _path(self, name: Any) -> Path:
