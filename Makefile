@@ -29,7 +29,7 @@ NODE_PARTS := viewer/node_modules/.package-lock.json
 
 viewer: $(VIEWER)
 
-$(VIEWER): $(NODE_PARTS) $(wildcard viewer/src/*) viewer/index.html viewer/vite.config.ts
+$(VIEWER): $(NODE_PARTS) $(wildcard viewer/src/*) viewer/index.html viewer/vite.config.mjs
 	npm run --prefix viewer --silent build -- --logLevel warn
 	touch $@
 

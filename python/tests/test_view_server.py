@@ -140,6 +140,20 @@ def test_scenes_are_listed_without_what_is_none(server: Server) -> None:
     assert server.json("/api/scenes/crates.toml")["scene"]["charge"][1]["explosive"] == "PETN"
 
 
+def test_a_scene_that_json_cannot_hold_is_opened_as_text(server: Server) -> None:
+    odd = server.folder / "odd.toml"
+    odd.write_text(
+        "name = 1979-05-27\n[time]\nduration = inf\n[[charge]]\nmass = nan\nposition = [0, 0, 0]\n"
+    )
+    try:
+        _, body, _ = server.request("GET", "/api/scenes/odd.toml")
+        scene = json.loads(body, parse_constant=lambda text: pytest.fail(text))["scene"]
+        with server.live() as link:
+            assert "must be" in ask(link, 1, scene)
+    finally:
+        odd.unlink()
+
+
 def test_the_schema_names_what_can_be_turned(server: Server) -> None:
     schema = server.json("/api/schema")
     charge = schema["$defs"]["Charge"]["properties"]

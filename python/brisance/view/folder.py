@@ -42,8 +42,8 @@ class ScenesFolder:
         if not self._is_scene(path):
             raise InputError(_UNLISTED)
         data = read_tables(path)
-        # Dates are the one thing TOML holds and JSON does not; as text they are refused by the model.
-        plain: dict[str, Any] = json.loads(json.dumps(data, default=str))
+        # TOML holds dates, infinities and nan, and JSON does not; as text they are refused by the model.
+        plain: dict[str, Any] = json.loads(json.dumps(data, default=str), parse_constant=str)
         return plain
 
     def scene(self, name: Any, data: Any) -> Scene:
