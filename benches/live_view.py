@@ -1,8 +1,8 @@
 """How fast the live view is: the message, its parts, and the picture in a browser without a graphics card.
 
-Run with ``python benches/live_view.py`` after ``make viewer chromium``. The first table is the server's: time to
-simulate and to pack, bytes a piece and frame. The second drives Chromium, which draws in software here: a
-graphics card is one to two orders faster, so read the triangles and draw calls, which are the same everywhere.
+Run with ``python benches/live_view.py`` after ``make viewer chromium``. The first table is the server's: time
+to simulate and to pack, bytes a piece and frame. The second drives Chromium, which draws in software here: a
+graphics card is far faster, so read the triangles and draw calls, which are the same everywhere.
 """
 
 from __future__ import annotations
@@ -54,9 +54,10 @@ def row(name: str, result: Result, simulated: float) -> str:
     again, shorter = timed(lambda: pack(result, known=known))
     _, arrays = read(message)
     frames, pieces = result.positions.shape[:2]
+    a_pose = arrays["poses"].nbytes / pieces / frames
     return (
         f"{name:<22}{pieces:>8}{frames:>8}{simulated:>10.1f}{packed:>10.1f}{again:>10.1f}"
-        f"{len(message) / 1e6:>10.2f}{len(shorter) / 1e6:>10.2f}{arrays['poses'].nbytes / pieces / frames:>10.2f}"
+        f"{len(message) / 1e6:>10.2f}{len(shorter) / 1e6:>10.2f}{a_pose:>10.2f}"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import struct
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from brisance.formats.packed import MOST_PIECES, check_shown, pack, read
 from brisance.formats.packed.poses import (
     POSITION_STEPS,
     WORST_TURN,
+    Poses,
     moving,
     pack_poses,
     smallest_three,
@@ -229,3 +231,26 @@ def test_too_much_to_show_is_refused_beforehand() -> None:
     )
     with pytest.raises(InputError, match=r"frames of .* pieces are more than the live view shows"):
         check_shown(long)
+
+
+def test_a_pane_is_whole_until_it_breaks_and_in_pieces_from_then_on() -> None:
+    """The whole pane stands after the pieces, where its window is, and the two are never seen at once."""
+    result = shattered_pane(pieces=40, frames=5)
+    window = br.Block(size=(1, 1, 1), mass=1, position=(3, 1, 0), rotation=(0, 90, 0))
+    whole = SimpleNamespace(
+        mesh=box_mesh((1.6, 1.2, 0.006)), window=window, start=0, stop=len(result.meshes), broken_at_s=0.0125
+    )
+    result.panes = [whole]  # type: ignore[attr-defined]
+    header, arrays = read(pack(result))
+    pieces = len(header["names"])
+    assert pieces == len(result.meshes)
+    table = arrays["pieces"].reshape(-1, 16)
+    assert table[:pieces, 12] == pytest.approx(0.0125) and (table[:pieces, 13] >= 1e30).all()
+    assert table[pieces, 12] <= -1e30 and table[pieces, 13] == pytest.approx(0.0125)
+    # It never moves: one pose, at its window's place and turned with it.
+    assert table[pieces, 0:3].tolist() == [3, 1, 0] and table[pieces, 9] == 1
+    offset, first, count = table[:, 7:10].astype(np.int64).T
+    poses = Poses(arrays["poses"], offset, first, count, low=table[:, 0:3], size=table[:, 4:7])
+    turn = unpack_poses(poses, 2)[1][pieces]
+    assert angle_between(turn, np.array(window.orientation())) < WORST_TURN
+    assert pieces in arrays["piece_0"]

@@ -44,7 +44,7 @@ flat varying int vLook;
 `;
 
 const VERTEX_BODY = /* glsl */ `
-vec3 transformed = turned(pose.turn, position) + pose.position;
+vec3 transformed = turned(pose.turn, pose.size * position) + pose.position;
 vOwn = position;
 vBroken = broken;
 vLook = int(pose.look.z + 0.5);

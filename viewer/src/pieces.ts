@@ -95,7 +95,8 @@ export class Pieces {
     this.uniforms.range.value.set(...range);
     const width = this.uniforms.piecesARow.value;
     const count = values instanceof Float32Array ? values.length : 0;
-    const padded = new Float32Array(Math.max(1, Math.ceil(count / width)) * width);
+    const rows = (this.shown?.table.length ?? 0) / (16 * width);
+    const padded = new Float32Array(Math.max(1, Math.ceil(count / width), rows) * width).fill(-1e38);
     if (values instanceof Float32Array)
       padded.set(values.map((value) => (Number.isFinite(value) ? value : -1e38)));
     valueTable.value = dataTexture(valueTable.value, padded, width, padded.length / width, valueFormat);
@@ -120,7 +121,9 @@ export class Pieces {
     renderer.shadowMap.autoUpdate = shadows;
     camera.clearViewOffset();
     const [low = 0, middle = 0, high = 0] = read;
-    return low + 256 * middle + 65536 * high - 1;
+    const piece = low + 256 * middle + 65536 * high - 1;
+    // Beyond the pieces stand panes that are still whole, of which nothing is told.
+    return piece < (this.shown?.pieces ?? 0) ? piece : -1;
   }
 
   private build(batches: Batch[]): void {

@@ -36,7 +36,7 @@ vec3 turned(vec4 q, vec3 v) {
   return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
 }
 
-struct Pose { vec3 position; vec4 turn; float speed; vec4 look; };
+struct Pose { vec3 position; vec4 turn; float speed; float size; vec4 look; };
 
 Pose poseOf(float which) {
   int number = int(which + 0.5);
@@ -63,6 +63,10 @@ Pose poseOf(float which) {
   pose.turn = normalize(mix(first, second, share));
   pose.speed = length(to - from) * frameRate;
   pose.look = run;
+  // What is not to be seen yet, or no longer, shrinks to a point.
+  vec2 shown = pieceCell(number, 3).xy;
+  float time = frame / frameRate;
+  pose.size = time >= shown.x && time < shown.y ? 1.0 : 0.0;
   return pose;
 }
 `;
@@ -70,7 +74,7 @@ Pose poseOf(float which) {
 /** Sets a vertex in place in any of three's own materials. */
 export const PLACED = /* glsl */ `
 Pose pose = poseOf(piece);
-vec3 transformed = turned(pose.turn, position) + pose.position;
+vec3 transformed = turned(pose.turn, pose.size * position) + pose.position;
 `;
 
 /** As PLACED, for the materials that also need the normal, which they ask for first. */

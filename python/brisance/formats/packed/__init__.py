@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from brisance.errors import InputError
 from brisance.formats.packed.batches import Batch, batches
+from brisance.formats.packed.cast import Cast
 from brisance.formats.packed.facts import FACTS, facts, front_table, look_numbers, pulses
 from brisance.formats.packed.poses import MOST_POSES, ROW, Poses, pack_poses
 
@@ -46,6 +47,9 @@ PIECES_A_ROW = 64
 MOST_PIECES = 50_000
 """Pieces beyond which neither a wait nor a picture would be called live."""
 
+NEVER = 1e30
+"""Stands for infinity [s] where shaders read it."""
+
 _TYPES = {"float32": "f32", "uint32": "u32", "int8": "i8"}
 
 Array = NDArray[Any]
@@ -53,15 +57,17 @@ Array = NDArray[Any]
 
 def check_shown(scene: Scene) -> None:
     """Raise :class:`InputError` if a recording of the scene is more than the live view can hold."""
-    if scene.piece_count > MOST_PIECES:
+    _check(scene.time.frames, scene.piece_count)
+
+
+def _check(frames: int, pieces: int) -> None:
+    if pieces > MOST_PIECES:
         raise InputError(
-            f"{scene.piece_count:,} pieces are more than the live view shows ({MOST_PIECES:,}); "
-            "lower their number."
+            f"{pieces:,} pieces are more than the live view shows ({MOST_PIECES:,}); lower their number."
         )
-    poses = scene.time.frames * scene.piece_count
-    if poses > MOST_POSES:
+    if frames * pieces > MOST_POSES:
         raise InputError(
-            f"{scene.time.frames:,} frames of {scene.piece_count:,} pieces are more than the live view shows "
+            f"{frames:,} frames of {pieces:,} pieces are more than the live view shows "
             f"({MOST_POSES:,} poses); lower time.duration, time.frame_rate or the number of pieces."
         )
 
@@ -74,16 +80,17 @@ def pack(result: Result, *, known: str = "", extra: Mapping[str, Any] | None = N
     ``known`` is the ``geometry`` key of a message that the receiver still holds: equal shapes are then left
     out. ``extra`` is added to the header. Raises :class:`InputError` beyond :data:`poses.MOST_POSES` poses.
     """
-    check_shown(result.scene)
+    _check(len(result.times), len(result.bodies))
     arrays: dict[str, Array] = {}
-    poses = pack_poses(result.positions, result.orientations)
+    cast = Cast(result)
+    poses = pack_poses(cast.positions, cast.orientations)
     arrays["poses"] = poses.table
-    looks, numbers = look_numbers(result)
-    arrays["pieces"] = _piece_table(result, poses, numbers)
+    looks, numbers = look_numbers(cast.materials)
+    arrays["pieces"] = _piece_table(cast, poses, numbers)
     arrays["facts"] = facts(result)
     arrays["pulses"] = pulses(result)
     arrays["fronts"] = front_table(result)
-    shapes = batches(result, [look["opacity"] < 1.0 for look in looks], numbers)
+    shapes = batches(cast.meshes, [look["opacity"] < 1.0 for look in looks], numbers)
     key = _key(shapes)
     header = {
         **_header(result),
@@ -163,20 +170,22 @@ def _header(result: Result) -> dict[str, Any]:
     }
 
 
-def _piece_table(result: Result, poses: Poses, looks: NDArray[np.int64]) -> NDArray[np.float32]:
+def _piece_table(cast: Cast, poses: Poses, looks: NDArray[np.int64]) -> NDArray[np.float32]:
     """(rows, PIECES_A_ROW, 16): what the vertex shader asks about a piece, four texels of four numbers."""
-    count = len(result.bodies)
+    count = len(cast.meshes)
     rows = max(1, -(-count // PIECES_A_ROW))
     table = np.zeros((rows * PIECES_A_ROW, 16), dtype=np.float32)
     own = table[:count]
     own[:, 0:3] = poses.low
-    own[:, 3] = np.where(np.isfinite(result.bodies.arrival_time_s), result.bodies.arrival_time_s, -1.0)
+    own[:, 3] = np.where(np.isfinite(cast.arrival_s), cast.arrival_s, -1.0)
     own[:, 4:7] = poses.size
     own[:, 7] = poses.offset
     own[:, 8] = poses.first
     own[:, 9] = poses.count
     own[:, 10] = looks
     own[:, 11] = _chance(count)
+    own[:, 12] = np.clip(cast.shown_from_s, -NEVER, NEVER)
+    own[:, 13] = np.clip(cast.shown_until_s, -NEVER, NEVER)
     return table.reshape(rows, PIECES_A_ROW, 16)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +16,6 @@ from numpy.typing import NDArray
 from brisance.formats.normals import area_vectors, face_labels, smooth_normals
 from brisance.objects.mesh.polygons import PolygonMesh, triangulate
 from brisance.piece import PieceMesh
-
-if TYPE_CHECKING:
-    from brisance.result import Result
 
 SHARED_BY = 4
 """Pieces from which on a shared mesh is instanced: below, a draw call costs more than the copies."""
@@ -48,13 +44,15 @@ class Batch:
         return len(self.index) * (len(self.piece) if self.instanced else 1)
 
 
-def batches(result: Result, transparent_looks: Sequence[bool], looks: NDArray[np.int64]) -> list[Batch]:
-    """The batches of a result; ``looks`` (B,) is each piece's look, a number into ``transparent_looks``."""
+def batches(
+    meshes: Sequence[PieceMesh], transparent_looks: Sequence[bool], looks: NDArray[np.int64]
+) -> list[Batch]:
+    """The batches of pieces; ``looks`` (N,) is each piece's look, a number into ``transparent_looks``."""
     clear = np.array([*transparent_looks, False])[looks]
     made = []
     for transparent in (False, True):
         pieces = np.flatnonzero(clear == transparent)
-        made += _of_kind(result.meshes, pieces, transparent)
+        made += _of_kind(meshes, pieces, transparent)
     return made
 
 

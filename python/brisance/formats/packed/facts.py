@@ -95,13 +95,10 @@ def front_table(result: Result) -> NDArray[np.float32]:
     return table
 
 
-def look_numbers(result: Result) -> tuple[list[dict[str, Any]], NDArray[np.int64]]:
-    """The looks of a result's materials, and (B,) the number of each piece's."""
-    materials = list(dict.fromkeys(source.material for source in result.sources))
-    numbers = np.zeros(len(result.bodies), dtype=np.int64)
-    for source in result.sources:
-        numbers[source.start : source.stop] = materials.index(source.material)
-    return [_look(name) for name in materials], numbers
+def look_numbers(materials: list[str]) -> tuple[list[dict[str, Any]], NDArray[np.int64]]:
+    """The looks of materials, one a piece, each look once; and (N,) the number of each piece's."""
+    distinct = {name: number for number, name in enumerate(dict.fromkeys(materials))}
+    return [_look(name) for name in distinct], np.array([distinct[name] for name in materials], np.int64)
 
 
 def _look(material: str) -> dict[str, Any]:
