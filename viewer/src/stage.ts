@@ -16,7 +16,7 @@ import { Surroundings, type Theme } from "./surroundings";
 const AZIMUTH = THREE.MathUtils.degToRad(20);
 const ELEVATION = THREE.MathUtils.degToRad(11);
 /** Pieces looked at to follow the action: of more, every so many-th. */
-const WATCHED = 4000;
+const WATCHED = 1000;
 /** A picture that takes longer than this [ms] has the next drawn more coarsely, one that is quicker more finely. */
 const SLOW = 45;
 const QUICK = 20;

@@ -60,7 +60,7 @@ class Conversation:
                 await self._socket.send_bytes(message)
         except (asyncio.CancelledError, CalledOffError, WebSocketDisconnect):
             return
-        except BaseException as error:
+        except BaseException as error:  # a panic of the engine is no Exception
             await self._say({"id": number, "error": sentence(error)})
 
     async def _simulated(self, request: dict[str, Any]) -> bytes:

@@ -18,8 +18,8 @@ from typing import TypeVar
 
 from brisance.errors import BrisanceError
 
-WORKERS = 2
-"""Runs at a time. Each uses every core, so more would only take turns; one would wait for a stale one."""
+WORKERS = 4
+"""Runs at a time. Each uses every core, so more would only take turns; fewer would wait for stale ones."""
 GLANCE = 0.05
 """Seconds between two looks at how far a run is."""
 
