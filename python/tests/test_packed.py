@@ -254,3 +254,22 @@ def test_a_pane_is_whole_until_it_breaks_and_in_pieces_from_then_on() -> None:
     turn = unpack_poses(poses, 2)[1][pieces]
     assert angle_between(turn, np.array(window.orientation())) < WORST_TURN
     assert pieces in arrays["piece_0"]
+
+
+def test_the_key_of_shapes_knows_every_part_of_them() -> None:
+    def key(meshes: list[PieceMesh], material: str = "brick") -> str:
+        result = synthetic_result(sources=[("wall", material, len(meshes))], meshes=meshes, frames=3)
+        return str(read(pack(result))[0]["geometry"])
+
+    brick = box_mesh()
+    keys = [
+        key([brick] * 6),
+        key([brick] * 5),
+        key([brick] * 5 + [box_mesh()]),
+        key([brick] * 6, "glass"),
+        key([box_mesh((0.32, 0.16, 0.11))] * 6),
+        key([box_mesh(broken=[1])] * 6),
+        key([box_mesh(broken=[2])] * 6),
+    ]
+    assert len(set(keys)) == len(keys)
+    assert key([box_mesh()] * 6) == keys[0]

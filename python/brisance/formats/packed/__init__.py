@@ -17,7 +17,6 @@ on a multiple of 16 bytes so that a reader wraps them where they lie:
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import struct
@@ -28,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from brisance.errors import InputError
-from brisance.formats.packed.batches import Batch, batches
+from brisance.formats.packed.batches import Batch, batches, shape_key
 from brisance.formats.packed.cast import Cast
 from brisance.formats.packed.facts import FACTS, facts, front_table, look_numbers, pulses
 from brisance.formats.packed.poses import MOST_POSES, ROW, Poses, pack_poses
@@ -90,8 +89,9 @@ def pack(result: Result, *, known: str = "", extra: Mapping[str, Any] | None = N
     arrays["facts"] = facts(result)
     arrays["pulses"] = pulses(result)
     arrays["fronts"] = front_table(result)
-    shapes = batches(cast.meshes, [look["opacity"] < 1.0 for look in looks], numbers)
-    key = _key(shapes)
+    clear = np.array([look["opacity"] < 1.0 for look in looks], dtype=np.bool_)[numbers]
+    key = shape_key(cast.meshes, clear)
+    shapes = [] if key == known else batches(cast.meshes, clear)
     header = {
         **_header(result),
         "looks": looks,
@@ -203,12 +203,3 @@ def _describe(shapes: list[Batch], arrays: dict[str, Array], index: int) -> dict
     for name in ("position", "normal", "index", "piece"):
         arrays[f"{name}_{index}"] = getattr(shape, name)
     return {"instanced": shape.instanced, "transparent": shape.transparent, "triangles": shape.triangles}
-
-
-def _key(shapes: list[Batch]) -> str:
-    digest = hashlib.blake2b(digest_size=12)
-    for shape in shapes:
-        digest.update(bytes((shape.instanced, shape.transparent)))
-        for array in (shape.position, shape.normal, shape.index, shape.piece):
-            digest.update(array.tobytes())
-    return digest.hexdigest()

@@ -7,6 +7,7 @@ after the others.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,6 +20,8 @@ from brisance.piece import PieceMesh
 
 SHARED_BY = 4
 """Pieces from which on a shared mesh is instanced: below, a draw call costs more than the copies."""
+_NONE = np.empty(0, dtype=np.int32)
+
 MOST_INSTANCED = 16
 """Instanced batches at most; the meshes that would save the most vertices have them."""
 
@@ -44,11 +47,23 @@ class Batch:
         return len(self.index) * (len(self.piece) if self.instanced else 1)
 
 
-def batches(
-    meshes: Sequence[PieceMesh], transparent_looks: Sequence[bool], looks: NDArray[np.int64]
-) -> list[Batch]:
-    """The batches of pieces; ``looks`` (N,) is each piece's look, a number into ``transparent_looks``."""
-    clear = np.array([*transparent_looks, False])[looks]
+def shape_key(meshes: Sequence[PieceMesh], clear: NDArray[np.bool_]) -> str:
+    """A key of what :func:`batches` would give: equal keys, equal batches. It takes far less time than they
+    do.
+    """
+    digest = hashlib.blake2b(clear.tobytes(), digest_size=12)
+    numbers: dict[int, int] = {}
+    owners = [numbers.setdefault(id(mesh), len(numbers)) for mesh in meshes]
+    digest.update(np.array(owners, dtype=np.int64).tobytes())
+    for mesh in {id(mesh): mesh for mesh in meshes}.values():
+        for array in (mesh.points, mesh.face_counts, mesh.face_indices, mesh.groups.get("broken", _NONE)):
+            digest.update(len(array).to_bytes(8, "little"))
+            digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
+def batches(meshes: Sequence[PieceMesh], clear: NDArray[np.bool_]) -> list[Batch]:
+    """The batches of pieces; ``clear`` (N,) says which are see-through."""
     made = []
     for transparent in (False, True):
         pieces = np.flatnonzero(clear == transparent)
