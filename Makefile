@@ -59,7 +59,7 @@ demo: setup viewer
 test: setup viewer chromium
 	cargo test --release --quiet --package brisance-engine
 	$(BIN)/pytest python/tests
-	CHROMIUM=$(CHROMIUM) node --test viewer/test/view.test.mjs
+	CHROMIUM=$(CHROMIUM) node --test --test-concurrency=1 viewer/test/view.test.mjs viewer/test/page.test.mjs
 
 lint: setup $(NODE_PARTS)
 	cargo fmt --all --check

@@ -24,6 +24,9 @@ const FLAGS = [
   "--enable-unsafe-swiftshader",
 ];
 
+/** Pictures are drawn in software here, so a page that nobody looks at is small. */
+export const SMALL = { viewport: { width: 320, height: 240 } };
+
 mkdirSync(OUT, { recursive: true });
 
 function options() {
