@@ -37,7 +37,7 @@ export class Charges {
   }
 
   set gizmoShown(shown: boolean) {
-    this.gizmo.getHelper().visible = shown;
+    this.gizmo.getHelper().visible = shown && this.gizmo.object !== undefined;
   }
 
   set movable(movable: boolean) {

@@ -38,6 +38,7 @@ export class Controls {
     for (const name of scalars)
       general.append(this.field(name, [name], this.root.properties?.[name] ?? {}, this.root));
     this.element.append(...parts.slice(0, 1), general, ...parts.slice(1));
+    this.element.parentElement?.scrollTo(0, 0);
     for (const part of this.element.querySelectorAll("details"))
       part.open = OPEN.includes(part.dataset.key ?? "");
   }

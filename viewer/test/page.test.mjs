@@ -57,6 +57,7 @@ describe("the page", () => {
   for (const [name, width, height, colorScheme] of [
     ["desktop-dark", 1280, 800, "dark"],
     ["desktop-light", 1280, 800, "light"],
+    ["narrow-light", 800, 560, "light"],
     ["phone-dark", 390, 780, "dark"],
     ["phone-light", 390, 780, "light"],
   ]) {
@@ -66,7 +67,12 @@ describe("the page", () => {
       await page.emulateMedia({ colorScheme });
       await showFrame(page, width > 400 ? 2.4 : 24);
       assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), colorScheme);
-      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+      const widest = await page.evaluate(() =>
+        Math.max(
+          ...["html", "body", "#app", ".foot"].map((part) => document.querySelector(part).scrollWidth),
+        ),
+      );
+      assert.ok(widest <= width, `${widest} pixels in ${width}`);
       const [ink, ground] = await page.evaluate(() => {
         const style = getComputedStyle(document.documentElement);
         return ["--soft", "--panel"].map((name_) => style.getPropertyValue(name_).trim());
@@ -105,6 +111,8 @@ describe("the exported page", () => {
       [],
     );
     assert.equal(await page.getByLabel("Controls").count(), 0);
+    const gizmo = await page.evaluate(() => window.brisance.viewer.stage.charges.gizmo.getHelper().visible);
+    assert.equal(gizmo, false, "there is nothing to drag");
     await screenshot(page, "exported");
     await page.close();
   });
