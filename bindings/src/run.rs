@@ -60,12 +60,13 @@ pub fn watched(
 }
 
 impl Watch {
-    /// Passes on a Ctrl-C, and calls back with how many frames are done, and of how many.
+    /// Passes on a Ctrl-C, and calls back with how many frames are done, and of how many: 0 of 0 until the loads are
+    /// worked out.
     fn report(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;
             let (done, total) = (self.done.load(Relaxed), self.total.load(Relaxed));
-            progress.filter(|_| total > 0).map_or(Ok(()), |call| call.call1(py, (done, total)).map(drop))
+            progress.map_or(Ok(()), |call| call.call1(py, (done, total)).map(drop))
         })
     }
 

@@ -27,9 +27,11 @@ def available_bytes() -> int | None:
     return min(limits, default=None)
 
 
-def check_fits(frames: int, pieces: int) -> None:
-    """Raise :class:`InputError`, saying how much is needed, unless a recording fits in memory."""
-    needed, available = recording_bytes(frames, pieces), available_bytes()
+def check_fits(frames: int, pieces: int, *, copies: int = 1) -> None:
+    """Raise :class:`InputError`, saying how much is needed, unless a recording fits in memory, ``copies``
+    times.
+    """
+    needed, available = copies * recording_bytes(frames, pieces), available_bytes()
     if available is not None and needed > available:
         noun = "piece" if pieces == 1 else "pieces"
         raise InputError(

@@ -17,6 +17,7 @@ from brisance.piece import PieceMesh
 
 TIMINGS = ("load", "occlusion", "fracture", "dynamics", "write", "total")
 USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
+ANIMATION_SUFFIXES = (*USD_SUFFIXES, ".glb", ".html")
 
 
 @dataclass(frozen=True)
@@ -164,18 +165,27 @@ class Result:
         return report(self)
 
     def write(self, path: Path | str, *, layout: str = "auto") -> None:
-        """Write the result; the suffix says what: .usd, .usda, .usdc or .usdz the animation, .json the
-        report.
+        """Write the result; the suffix says what: .usd, .usda, .usdc, .usdz or .glb the animation, .html a
+        page that shows it, .json the report.
 
         ``layout`` concerns USD: ``"prims"`` is one prim a piece, ``"instancer"`` one compact array a frame,
         ``"auto"`` chooses by the number of pieces.
         """
         started = time.perf_counter()
         check_output(path)
-        if Path(path).suffix.lower() == ".json":
+        suffix = Path(path).suffix.lower()
+        if suffix == ".json":
             from brisance.formats.report import write_report
 
             write_report(self, path)
+        elif suffix == ".html":
+            from brisance.formats.html import write_html
+
+            write_html(self, path)
+        elif suffix == ".glb":
+            from brisance.formats.glb import write_glb
+
+            write_glb(self, path)
         else:
             from brisance.formats.usd import write_usd
 
@@ -192,8 +202,12 @@ def check_output(path: Path | str) -> None:
     from brisance.formats.atomic import check_writable
 
     suffix = check_writable(path).suffix.lower()
-    if suffix not in (*USD_SUFFIXES, ".json"):
-        known = ", ".join(USD_SUFFIXES)
+    if suffix == ".html":
+        from brisance.formats.html import check_viewer
+
+        check_viewer()
+    if suffix not in (*ANIMATION_SUFFIXES, ".json"):
+        known = ", ".join(ANIMATION_SUFFIXES)
         raise InputError(
             f"{path} has no suffix that names a format; end it in {known} (animation) or .json (report)."
         )

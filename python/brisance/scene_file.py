@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +43,25 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
     path = Path(path)
     data = _parse(path)
     changed = [_apply(data, override) for override in overrides]
+    return scene_of(data, path, changed)
+
+
+def read_tables(path: Path | str) -> dict[str, Any]:
+    """The tables of a scene file as plain data, not yet checked.
+
+    Raises :class:`InputError` where it cannot be read or is not TOML.
+    """
+    return _parse(Path(path))
+
+
+def scene_of(data: dict[str, Any], path: Path | str, changed: Sequence[str] = ()) -> Scene:
+    """Check the tables of a scene file, as TOML gives them, and return the scene.
+
+    ``path`` is where they are from: errors begin with it, files named in the scene are looked for beside it,
+    and a scene without a name has the file's. ``changed`` are keys that a ``--set`` wrote. Raises
+    :class:`InputError` with one sentence for whatever is wrong.
+    """
+    path = Path(path)
     try:
         wire = SceneFile.model_validate(data)
     except ValidationError as error:
@@ -65,11 +84,16 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
 
 def dump(scene: Scene, path: Path | str) -> None:
     """Write a scene as TOML, with only the keys that were set; :func:`load` gives the same scene back."""
+    write_text(path, dumps(scene))
+
+
+def dumps(scene: Scene) -> str:
+    """A scene as the text of its file, with only the keys that were set."""
     data = scene.model_dump(mode="json", exclude_unset=True, exclude={"charges", "objects"})
     tables: dict[str, list[dict[str, Any]]] = {"charge": [_keys(charge) for charge in scene.charges]}
     for obj in scene.objects:
         tables.setdefault(obj.kind, []).append({"name": obj.name, **_keys(obj)})
-    write_text(path, _toml(data, tables))
+    return _toml(data, tables)
 
 
 def _keys(part: Any) -> dict[str, Any]:
@@ -117,7 +141,7 @@ def _parse(path: Path) -> dict[str, Any]:
         raise InputError(f"{path} is not valid TOML: {reason[:1].lower()}{reason[1:]}.") from None
 
 
-def _where(path: Path, problem: Problem, changed: list[str]) -> str:
+def _where(path: Path, problem: Problem, changed: Sequence[str]) -> str:
     """The file, or the --set that wrote the key in question."""
     key = ".".join(str(part) for part in problem.key)
     by_flag = any(key == name or key.startswith(f"{name}.") or name.startswith(f"{key}.") for name in changed)

@@ -44,7 +44,7 @@ class Problem:
 
     def sentence(self, where: str) -> str:
         """The whole sentence, begun by ``where`` it was found: a file, a flag, a class."""
-        path = ".".join(str(part) for part in self.key)
+        path = on_one_line(".".join(str(part) for part in self.key))
         subject = (
             f"{where}: {path} " if path else f"{where} " if self.text.startswith("has ") else f"{where}: "
         )
@@ -83,6 +83,11 @@ def value_text(value: Any) -> str:
         return "a table"
     text = f"{value:g}" if isinstance(value, float) else repr(value)
     return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def on_one_line(text: str) -> str:
+    """Text with what cannot be printed written as an escape: a key may hold line ends."""
+    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text)
 
 
 def _text(

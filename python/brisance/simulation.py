@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from types import TracebackType
@@ -55,13 +55,16 @@ class Built:
         return [name for group in self.sets for name in group.names]
 
 
-def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None) -> Result:
+def simulate(
+    scene: Scene, *, progress: bool | Callable[[int, int], None] = False, threads: int | None = None
+) -> Result:
     """Simulate a scene.
 
-    ``progress`` shows a bar on stderr once the run has taken a second. ``threads`` bounds the threads used, 1
-    or more; the result is the same to the last bit whatever it is. Raises :class:`InputError` where the scene
-    cannot be run: files that are missing, or more frames and pieces than memory holds, which is found out
-    before any work.
+    ``progress`` true shows a bar on stderr once the run has taken a second; a function is called every
+    twentieth of a second with the frames done and all frames, 0 of 0 while the loads are worked out, and
+    whatever it raises ends the run. ``threads`` bounds the threads used, 1 or more; the result is the same to
+    the last bit whatever it is. Raises :class:`InputError` where the scene cannot be run: files that are
+    missing, or more frames and pieces than memory holds, which is found out before any work.
     """
     if threads is not None and threads < 1:
         raise InputError(f"threads must be 1 or more, not {threads}.")
@@ -70,11 +73,12 @@ def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None
     _check_step(scene)
     built = build(scene)
     ready = time.perf_counter()
-    with _Progress(progress) as bar, _naming(built.windows):
+    with _Progress(progress is True) as bar, _naming(built.windows):
+        told = progress if callable(progress) else bar.update if progress else None
         recording = built.engine.simulate(
             threads=threads,
             most_pieces=most_pieces(scene.time.frames, len(built.names)),
-            progress=bar.update if progress else None,
+            progress=told,
         )
     result = _result(scene, built, recording)
     result.timing_s = {
@@ -306,7 +310,9 @@ class _Progress:
         self._stack.close()
 
     def update(self, done: int, total: int) -> None:
-        """Show that ``done`` of ``total`` parts are done."""
+        """Show that ``done`` of ``total`` parts are done; nothing before there is a total."""
+        if total == 0:
+            return
         if self._bar is None:
             if not self._wanted or time.perf_counter() - self._started < PATIENCE:
                 return

@@ -21,6 +21,7 @@ from brisance.cli.inspect import inspect
 from brisance.cli.render import render
 from brisance.cli.run import run
 from brisance.cli.theory import app as theory
+from brisance.cli.view import view
 from brisance.errors import BrisanceError
 
 SPREAD = ("--distance", "--seed-at")
@@ -30,7 +31,7 @@ SPREAD = ("--distance", "--seed-at")
 _UsageError = cast(type[Exception], typer.BadParameter.__mro__[1])
 
 app = typer.Typer(name="brisance", add_completion=False, rich_markup_mode=None)
-for command in (run, inspect, curves, fracture, render, figure):
+for command in (run, view, inspect, curves, fracture, render, figure):
     app.command()(command)
 app.add_typer(theory)
 
@@ -55,6 +56,7 @@ def _brisance(
     \b
     Example:
       brisance run scenes/brick_wall.toml -o wall.usdc
+      brisance view scenes/brick_wall.toml
       brisance render wall.usdc -o wall.mp4
     """
 

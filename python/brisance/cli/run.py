@@ -20,7 +20,10 @@ def run(
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o", "--output", metavar="OUT", help="Animation to write: .usdc, .usda, .usd or .usdz."
+            "-o",
+            "--output",
+            metavar="OUT",
+            help="Animation to write: .usdc, .usda, .usd, .usdz, .glb, or .html, a page that shows it.",
         ),
     ] = None,
     report: Annotated[
@@ -44,14 +47,17 @@ def run(
     """
     from brisance.errors import InputError
     from brisance.formats.atomic import check_writable
-    from brisance.result import USD_SUFFIXES, check_output
+    from brisance.result import ANIMATION_SUFFIXES, check_output
     from brisance.scene_file import load
     from brisance.simulation import simulate
 
-    if output is not None and check_writable(output).suffix.lower() not in USD_SUFFIXES:
-        raise InputError(
-            f"-o {output}: an animation is USD, so give a name that ends in .usdc (or .usda, .usd, .usdz)."
-        )
+    if output is not None:
+        if check_writable(output).suffix.lower() not in ANIMATION_SUFFIXES:
+            raise InputError(
+                f"-o {output}: an animation is USD, glTF or a page, so give a name that ends in .usdc (or "
+                ".usda, .usd, .usdz), .glb or .html."
+            )
+        check_output(output)
     if report is not None:
         if report.suffix.lower() != ".json":
             raise InputError(f"--report {report}: a report is JSON, so give a name that ends in .json.")

@@ -1,14 +1,11 @@
 """Piece meshes as USD arrays: every distinct mesh converted once, in a few whole-array operations.
 
-Normals are authored rather than left to the viewer. Edges sharper than :data:`SMOOTHING_ANGLE_DEG` stay hard,
-gentler ones are smoothed, and nothing is smoothed across the border of a face group (a fracture surface meets
-the outside in a hard edge). A mesh on which nothing is smooth, a brick or a shard, carries one normal a face
-instead of one a corner.
+Normals are authored rather than left to the viewer, as :mod:`brisance.formats.normals` has them. A mesh on
+which nothing is smooth, a brick or a shard, carries one normal a face instead of one a corner.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,15 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Sdf, Vt
 
+from brisance.formats.normals import area_vectors, face_labels, smooth_normals, unit
 from brisance.formats.usd.authoring import apply, attribute, define, relate
 from brisance.formats.usd.materials import broken_path, material_path
 from brisance.piece import PieceMesh
-
-SMOOTHING_ANGLE_DEG = 30.0
-"""Faces that meet at less than this angle are shaded as one surface [degrees]."""
-
-_MOST_FACES_AT_A_POINT = 64
-"""Points where more faces meet (the tip of a fine cone) keep hard edges: pairing them costs the square."""
 
 _NO_FACES = np.empty(0, dtype=np.int32)
 _T = Sdf.ValueTypeNames
@@ -110,13 +102,13 @@ def _convert(meshes: list[PieceMesh], smoothing: bool) -> list[Geometry]:
     vertices = np.concatenate(
         [mesh.face_indices.astype(np.int64) + start for mesh, start in zip(meshes, point_starts, strict=True)]
     )
-    areas = _areas(points, counts, vertices)
-    face_normals = _unit(areas).astype(np.float32)
+    areas = area_vectors(points, counts, vertices)
+    face_normals = unit(areas).astype(np.float32)
     corner_starts = np.concatenate([[0], corner_ends[:-1]])
     smooth = np.zeros(len(meshes), dtype=np.bool_)
     if smoothing:
         corner_faces = np.repeat(np.arange(len(counts)), counts)
-        corner_normals = _smoothed(areas, corner_faces, vertices, _face_labels(meshes))
+        corner_normals = smooth_normals(areas, corner_faces, vertices, face_labels(meshes))
         bent = np.abs(corner_normals - face_normals[corner_faces]).max(axis=1) > 1e-6
         smooth = np.logical_or.reduceat(bent, corner_starts)
     extents = np.stack(
@@ -160,66 +152,3 @@ def _others(faces: NDArray[np.int32], count: int) -> NDArray[np.int32]:
     left = np.ones(count, dtype=np.bool_)
     left[faces] = False
     return np.flatnonzero(left).astype(np.int32)
-
-
-def _face_labels(meshes: list[PieceMesh]) -> NDArray[np.int64]:
-    """One number a face that differs between the groups of its mesh."""
-    labels = []
-    for mesh in meshes:
-        own = np.zeros(len(mesh.face_counts), dtype=np.int64)
-        for number, name in enumerate(sorted(mesh.groups), start=1):
-            own[mesh.groups[name]] = number
-        labels.append(own)
-    return np.concatenate(labels)
-
-
-def _areas(
-    points: NDArray[np.float32], counts: NDArray[np.int64], vertices: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """Return a vector along the normal of every face, as long as twice its area."""
-    ends = np.cumsum(counts)
-    starts = ends - counts
-    faces = np.repeat(np.arange(len(counts)), counts)
-    following = np.arange(1, len(vertices) + 1)
-    following[ends - 1] = starts
-    origin = points[vertices[starts]].astype(np.float64)
-    arms = points[vertices] - origin[faces]
-    summed: NDArray[np.float64] = np.add.reduceat(np.cross(arms, arms[following]), starts)
-    return summed
-
-
-def _smoothed(
-    areas: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    vertices: NDArray[np.int64],
-    labels: NDArray[np.int64],
-) -> NDArray[np.float32]:
-    """Return the unit normal of every face corner, smoothed; ``faces`` says which face each belongs to."""
-    units = _unit(areas)
-    first, second = _corner_pairs(vertices)
-    a, b = faces[first], faces[second]
-    joined = (units[a] * units[b]).sum(axis=1) > math.cos(math.radians(SMOOTHING_ANGLE_DEG))
-    joined &= (labels[a] == labels[b]) & (a != b)
-    sums = areas[faces]
-    for axis in range(3):
-        sums[:, axis] += np.bincount(first[joined], areas[b[joined], axis], minlength=len(vertices))
-    return _unit(sums).astype(np.float32)
-
-
-def _corner_pairs(vertices: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """All ordered pairs of face corners that lie on the same point."""
-    order = np.argsort(vertices, kind="stable")
-    valence = np.bincount(vertices)
-    group_starts = np.cumsum(valence) - valence
-    corners = np.flatnonzero(valence[vertices] <= _MOST_FACES_AT_A_POINT)
-    repeats = valence[vertices[corners]]
-    first = np.repeat(corners, repeats)
-    within = np.arange(len(first)) - np.repeat(np.cumsum(repeats) - repeats, repeats)
-    return first, order[group_starts[vertices[first]] + within]
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Scale vectors to unit length; one without length becomes +Y."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    up = np.broadcast_to(np.array([0.0, 1.0, 0.0]), vectors.shape).copy()
-    return np.divide(vectors, lengths, out=up, where=lengths > 0)
