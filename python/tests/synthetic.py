@@ -20,6 +20,7 @@ FACTS = (
     "peak_load_pa",
     "attenuation",
     "launch_speed_m_s",
+    "free_time_s",
     "rest_time_s",
 )
 
