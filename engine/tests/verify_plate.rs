@@ -54,7 +54,9 @@ fn it_swings_as_fast_as_its_first_mode() {
     for (width, height) in [(1.0, 1.0), (1.0, 0.4), (3.0, 2.0)] {
         let thickness = 0.01;
         let plate = Plate::new(&rectangle(width, height), thickness, &GLASS).unwrap();
-        let exact = PI * PI * (1.0 / (width * width) + 1.0 / (height * height))
+        let exact = PI
+            * PI
+            * (1.0 / (width * width) + 1.0 / (height * height))
             * (stiffness(thickness) / (GLASS.density * thickness)).sqrt();
         let ratio = plate.frequency() / exact;
         assert!((0.999..1.011).contains(&ratio), "{width} × {height}: {ratio}");

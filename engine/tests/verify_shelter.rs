@@ -444,7 +444,13 @@ fn a_body_without_area_is_read_all_the_same() {
         vertices: vec![DVec3::new(0.0, 0.0, 8.0), DVec3::new(0.0, 1.0, 8.0), DVec3::new(0.0, 2.0, 8.0)],
         triangles: vec![[0, 1, 2], [0, 2, 1]],
     };
-    let flat = Solid { form: Form::Mesh(Arc::new(sliver)), group: 1, occludes: true, points: Vec::new(), by_point: false };
+    let flat = Solid {
+        form: Form::Mesh(Arc::new(sliver)),
+        group: 1,
+        occludes: true,
+        points: Vec::new(),
+        by_point: false,
+    };
     let mut solids = plate_and(0.0, 0.0, 12.0);
     solids[1].group = 2;
     solids.push(flat);

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::window::standing;
 use crate::error::Result;
 use crate::geometry::{PieceMeshes, TriangleMesh, Triangulator};
-use super::window::standing;
 use crate::loading::{box_panels, flat_panels, mesh_panels};
 use crate::occlusion::{Form, Shelter, Sheltered, Solid, SurfacePoint, first_seen, shelter};
 use crate::scene::{Body, Flat, Scene, Shape};

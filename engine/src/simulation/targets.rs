@@ -12,7 +12,8 @@ use crate::dynamics::RigidBody;
 use crate::error::{Error, Result};
 use crate::geometry::{Outline, PrincipalAxes, Silhouette};
 use crate::loading::{
-    Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, flat_panels, mesh_panels,
+    Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, flat_panels,
+    mesh_panels,
 };
 use crate::occlusion::Shelter;
 use crate::recording::BodyFacts;
@@ -352,11 +353,7 @@ fn line_of_sight(middle: DVec3, eye: DVec3) -> DVec3 {
 }
 
 /// Outlines of every assembly, one a charge.
-fn assembly_outlines(
-    scene: &Scene,
-    fields: &[BlastField],
-    geometries: &[Geometry],
-) -> Outlines {
+fn assembly_outlines(scene: &Scene, fields: &[BlastField], geometries: &[Geometry]) -> Outlines {
     let mut members: BTreeMap<u32, Vec<&Geometry>> = BTreeMap::new();
     for (body, geometry) in scene.bodies.iter().zip(geometries) {
         if let Some(id) = body.assembly {

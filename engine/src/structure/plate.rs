@@ -142,8 +142,7 @@ impl Grid {
         let count = |length: f64| (libm::rint(length / cell) as usize).max(8);
         let (across, up) = (count(size.x), count(size.y));
         let spacing = size / DVec2::new(across as f64, up as f64);
-        let mut grid =
-            Self { origin: low, spacing, columns: across + 1, rows: up + 1, inside: Vec::new() };
+        let mut grid = Self { origin: low, spacing, columns: across + 1, rows: up + 1, inside: Vec::new() };
         for row in 1..up {
             let y = low.y + row as f64 * spacing.y;
             let crossings = crossings(outline, y, |p| p);

@@ -12,6 +12,7 @@ from typing import Any
 
 from brisance.errors import InputError
 from brisance.figures import (
+    dispersal,
     figure_2_3,
     figure_2_4,
     figure_2_5,
@@ -90,6 +91,7 @@ _MODULES = (
     figure_6_1,
     figure_6_2,
     figure_6_3,
+    dispersal,
 )
 
 FIGURES: dict[str, Figure[Any]] = {module.FIGURE.name: module.FIGURE for module in _MODULES}

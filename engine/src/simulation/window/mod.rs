@@ -114,8 +114,7 @@ impl Panes {
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
         let standing = standing(scene);
-        let mut found =
-            Self { panes: Vec::new(), outlines: targets::outlines(&standing, &fields)? };
+        let mut found = Self { panes: Vec::new(), outlines: targets::outlines(&standing, &fields)? };
         let mut left = most_pieces;
         for (number, window) in scene.windows.iter().enumerate() {
             let index = scene.bodies.len() + number;
@@ -179,10 +178,7 @@ impl Pane {
             (Fate::InPieces, Response::none())
         } else {
             let response = Response::until_failure(&plate, &load, window.strength, window.may_break);
-            let fails = response.failure.map(|time| Fate::Fails {
-                time,
-                place: origin(&plate, window),
-            });
+            let fails = response.failure.map(|time| Fate::Fails { time, place: origin(&plate, window) });
             (fails.unwrap_or(Fate::Holds), response)
         };
         match fate {
@@ -192,11 +188,8 @@ impl Pane {
         }
         let grown = recipe.grow_observed(&window.outline, observer)?;
         let pieces = Pieces::of(&grown.pattern, window.thickness, window.material.density)?;
-        let cracks = release::Cracks {
-            clock: clock(window, &grown),
-            pattern: &grown.pattern,
-            pieces: &pieces,
-        };
+        let cracks =
+            release::Cracks { clock: clock(window, &grown), pattern: &grown.pattern, pieces: &pieces };
         let peak_stress = response.peak * plate.strongest();
         let (bowing, holds) = match fate {
             Fate::Holds => (response.bowing, vec![Hold::still(f64::INFINITY); pieces.len()]),
@@ -256,7 +249,8 @@ fn origin(plate: &Plate, window: &Window) -> DVec2 {
     // Anywhere in the node's cell, unless that is outside the pane.
     let place = node + plate.spacing() * (DVec2::new(draw(1), draw(2)) - 0.5);
     let room = 0.25 * plate.spacing().min_element();
-    let inside = |at: DVec2| outline::contains(&window.outline, at) && outline::clearance(&window.outline, at) > room;
+    let inside =
+        |at: DVec2| outline::contains(&window.outline, at) && outline::clearance(&window.outline, at) > room;
     if inside(place) { place } else { node }
 }
 
@@ -274,12 +268,12 @@ fn whole(window: &Window) -> Body {
         .collect();
     Body {
         anchored: true,
-        ..body(window, moments.centroid, mass.mass, Flat {
-            outline,
-            thickness: window.thickness,
-            samples,
-            inertia: mass.inertia * (1.0 / mass.mass),
-        })
+        ..body(
+            window,
+            moments.centroid,
+            mass.mass,
+            Flat { outline, thickness: window.thickness, samples, inertia: mass.inertia * (1.0 / mass.mass) },
+        )
     }
 }
 
@@ -294,12 +288,17 @@ fn piece(window: &Window, pane: &Pane, index: usize, hold: &Hold) -> Body {
     }
     Body {
         hold: Some(hold.clone()),
-        ..body(window, centre, mass.mass, Flat {
-            outline,
-            thickness: window.thickness,
-            samples: pane.pieces.samples(index).to_vec(),
-            inertia: mass.inertia * (1.0 / mass.mass),
-        })
+        ..body(
+            window,
+            centre,
+            mass.mass,
+            Flat {
+                outline,
+                thickness: window.thickness,
+                samples: pane.pieces.samples(index).to_vec(),
+                inertia: mass.inertia * (1.0 / mass.mass),
+            },
+        )
     }
 }
 
