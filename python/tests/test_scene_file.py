@@ -285,12 +285,6 @@ def test_a_distance_outside_the_curves_is_a_warning(tmp_path: Path) -> None:
     assert inside.warnings == []
 
 
-def test_what_this_version_leaves_out_is_said(tmp_path: Path) -> None:
-    path = written(tmp_path, SMALL)
-    result = simulate(load(path, ["dynamics.contacts=true"]))
-    assert [warning.split(":")[0] for warning in result.warnings] == ["dynamics.contacts"]
-
-
 def test_python_takes_numpy_and_refuses_text() -> None:
     charge = br.Charge(mass=np.float64(3), position=np.array([0.0, 1.0, 2.0]))  # type: ignore[arg-type]
     assert charge.position == (0.0, 1.0, 2.0)

@@ -1,9 +1,9 @@
 //! The shards of a broken pane as bodies in the contact world, thrown as a test wants them.
 #![allow(dead_code)] // each test program uses its own part
 
-use brisance_engine::dynamics::RigidBody;
 use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, Passes};
 use brisance_engine::dynamics::ground::Ground;
+use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::fracture::{Fineness, Pieces, Recipe};
 use brisance_engine::geometry::{Polygon, PrincipalAxes};
 use brisance_engine::loading::Resistance;
@@ -87,6 +87,12 @@ impl Glass {
         let state = &self.states[index];
         let height = |p: &DVec3| (state.position + state.world_from_principal * *p).y;
         self.corners[index].iter().map(height).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Energy of motion and height [J].
+    pub fn energy(&self) -> f64 {
+        let height = |s: &RigidBody| s.position.y * GRAVITY / s.inverse_mass;
+        self.kinetic_energy() + self.states.iter().map(height).sum::<f64>()
     }
 
     pub fn kinetic_energy(&self) -> f64 {

@@ -201,7 +201,8 @@ impl ContactWorld {
 
     /// Binds bodies that have joined.
     pub fn bind(&mut self, bonds: &[Bond]) {
-        self.bonds.add(&mut self.world, &self.ids, bonds, self.origin);
+        let fixed = |index: usize| self.bodies[index].anchored;
+        self.bonds.add(&mut self.world, &self.ids, fixed, bonds, self.origin);
     }
 
     /// Bonds that hold still.

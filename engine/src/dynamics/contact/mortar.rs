@@ -5,11 +5,11 @@
 //! section, and mean shear stress. It breaks when
 //!
 //! ```text
-//! σ > tensile + 0        or     τ > shear + 0.4 max(−σ, 0)
+//! σ > tensile     or     τ > shear + 0.4 p
 //! ```
 //!
-//! with σ the highest normal stress, positive in tension: joints under pressure carry more shear (Mohr–Coulomb, as
-//! Eurocode 6 has it, EN 1996-1-1, 3.6.2).
+//! with σ the highest tension, τ the shear stress and p the mean pressure on the joint: joints under pressure carry more
+//! shear (Mohr–Coulomb, as EN 1996-1-1, 3.6.2 has it).
 
 use boxddd::{BodyId, JointId, Transform, WeldJointDef, World};
 use glam::{DQuat, DVec3};
@@ -87,7 +87,17 @@ fn joint(a: &Brick, b: &Brick, world_from_wall: DQuat, mortar: Mortar) -> Option
 /// All bonds that hold.
 #[derive(Default)]
 pub struct Bonds {
-    held: Vec<(Bond, JointId, BodyId)>,
+    held: Vec<Held>,
+}
+
+struct Held {
+    bond: Bond,
+    joint: JointId,
+    /// The first body of Box3D's joint, and the frame of the joint in it.
+    first: BodyId,
+    first_from_joint: DQuat,
+    /// 1 where that is the bond's first body, -1 where it is its second.
+    sign: f64,
 }
 
 impl Bonds {
@@ -95,50 +105,67 @@ impl Bonds {
         self.held.len()
     }
 
-    pub fn add(&mut self, world: &mut World, ids: &[Option<BodyId>], bonds: &[Bond], origin: DVec3) {
+    /// Binds bodies that are there. `fixed` says which of them never move: Box3D wants such a one first.
+    pub fn add(
+        &mut self,
+        world: &mut World,
+        ids: &[Option<BodyId>],
+        fixed: impl Fn(usize) -> bool,
+        bonds: &[Bond],
+        origin: DVec3,
+    ) {
         for bond in bonds {
-            let [Some(a), Some(b)] = bond.bodies.map(|index| ids[index]) else { continue };
-            let frame = |id: BodyId| {
-                let at = world.body_transform(id).expect(SOUND);
-                let rotation =
-                    DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
-                let position = DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into());
-                let inverse = rotation.conjugate();
-                let local = inverse * (bond.middle - origin - position);
-                Transform::new(single(local), quaternion(inverse * bond.world_from_joint))
+            let [one, other] = bond.bodies;
+            let (Some(a), Some(b)) = (ids[one], ids[other]) else { continue };
+            let (first, second, sign) = match (fixed(one), fixed(other)) {
+                (true, true) => continue,
+                (false, true) => (b, a, -1.0),
+                _ => (a, b, 1.0),
             };
-            let def = WeldJointDef::new(a, b).local_frame_a(frame(a)).local_frame_b(frame(b));
-            let joint = world.create_weld_joint(def.collide_connected(false)).expect(SOUND);
-            self.held.push((*bond, joint, a));
+            let [at_first, at_second] = [first, second].map(|id| {
+                let (position, rotation) = place(world, id);
+                let inverse = rotation.conjugate();
+                (inverse * (bond.middle - origin - position), inverse * bond.world_from_joint)
+            });
+            let frame = |(p, q): (DVec3, DQuat)| Transform::new(single(p), quaternion(q));
+            let def = WeldJointDef::new(first, second)
+                .local_frame_a(frame(at_first))
+                .local_frame_b(frame(at_second))
+                .collide_connected(false);
+            let joint = world.create_weld_joint(def).expect(SOUND);
+            self.held.push(Held { bond: *bond, joint, first, first_from_joint: at_first.1, sign });
         }
     }
 
     /// Drops the bonds of a body that is taken out; Box3D takes its joints with it.
     pub fn forget(&mut self, index: usize) {
-        self.held.retain(|(bond, _, _)| !bond.bodies.contains(&index));
+        self.held.retain(|held| !held.bond.bodies.contains(&index));
     }
 
     /// Breaks the bonds that carried more than they bear in the last step.
     pub fn yield_where_overloaded(&mut self, world: &mut World) {
-        self.held.retain(|(bond, joint, a)| {
-            if !world.body_awake(*a).expect(SOUND) {
-                return true;
-            }
-            let force = double(world.joint_constraint_force(*joint).expect(SOUND));
-            let torque = double(world.joint_constraint_torque(*joint).expect(SOUND));
-            let at = world.body_rotation(*a).expect(SOUND);
-            let world_from_a = DQuat::from_xyzw(at.v.x.into(), at.v.y.into(), at.v.z.into(), at.s.into());
-            let frame = world.joint_local_frame_a(*joint).expect(SOUND).q;
-            let joint_in_a =
-                DQuat::from_xyzw(frame.v.x.into(), frame.v.y.into(), frame.v.z.into(), frame.s.into());
-            let into_joint = (world_from_a * joint_in_a).conjugate();
-            let holds = bond.bears(into_joint * force, into_joint * torque);
+        if world.awake_body_count().expect(SOUND) == 0 {
+            return;
+        }
+        self.held.retain(|held| {
+            let force = double(world.joint_constraint_force(held.joint).expect(SOUND)) * held.sign;
+            let torque = double(world.joint_constraint_torque(held.joint).expect(SOUND)) * held.sign;
+            let (_, world_from_first) = place(world, held.first);
+            let into_joint = (world_from_first * held.first_from_joint).conjugate();
+            let holds = held.bond.bears(into_joint * force, into_joint * torque);
             if !holds {
-                world.destroy_joint(*joint, true).expect(SOUND);
+                world.destroy_joint(held.joint, true).expect(SOUND);
             }
             holds
         });
     }
+}
+
+/// Where a body is in Box3D's world [m], and its rotation.
+fn place(world: &World, id: BodyId) -> (DVec3, DQuat) {
+    let at = world.body_transform(id).expect(SOUND);
+    let rotation = DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
+    (DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into()), rotation)
 }
 
 impl Bond {
