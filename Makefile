@@ -25,12 +25,12 @@ blender-libraries:
 
 demo: setup
 	mkdir -p $(OUT)
-	$(BIN)/brisance run scenes/brick_wall.toml -o $(OUT)/brick_wall.usdc --report $(OUT)/brick_wall.json
-	$(BIN)/brisance render $(OUT)/brick_wall.usdc -o $(OUT)/brick_wall.mp4 --size 640x360
+	$(BIN)/brisance run scenes/window.toml -o $(OUT)/window.usdc --report $(OUT)/window.json
+	$(BIN)/brisance render $(OUT)/window.usdc -o $(OUT)/window.mp4 --size 640x360
 	@echo
-	@echo "Watch it:          $(OUT)/brick_wall.mp4"
-	@echo "Open in Blender:   $(OUT)/brick_wall.usdc   (File > Import > Universal Scene Description)"
-	@echo "Read the numbers:  $(OUT)/brick_wall.json"
+	@echo "Watch it:          $(OUT)/window.mp4"
+	@echo "Open in Blender:   $(OUT)/window.usdc   (File > Import > Universal Scene Description)"
+	@echo "Read the numbers:  $(OUT)/window.json"
 
 test: setup
 	cargo test --release --quiet --package brisance-engine

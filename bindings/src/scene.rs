@@ -309,15 +309,22 @@ impl Scene {
         Ok(rows_of_three(py, centres.into_iter()))
     }
 
-    /// Centres of mass in the world at the start, those of whole panes last, (bodies + panes, 3) [m].
-    fn middles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    /// How bodies stand at the start, whole panes last: centres of mass (n, 3) [m], orientations (n, 4) w first and
+    /// masses (n,) [kg].
+    fn standing<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let standing = standing(&self.scene);
         let middle = |body: &Body| {
             let own = body.mass_properties().map_err(refused)?.centre;
             Ok(body.position + body.orientation * own)
         };
-        let standing = standing(&self.scene);
         let middles: Vec<DVec3> = standing.bodies.iter().map(middle).collect::<PyResult<_>>()?;
-        Ok(rows_of_three(py, middles.into_iter()))
+        let turns = standing.bodies.iter().map(|body| body.orientation);
+        let turns: Vec<f64> = turns.flat_map(|q| [q.w, q.x, q.y, q.z]).collect();
+        let result = PyDict::new(py);
+        result.set_item("centre_m", rows_of_three(py, middles.into_iter()))?;
+        result.set_item("orientation", PyArray1::from_vec(py, turns).call_method1("reshape", ((-1, 4),))?)?;
+        result.set_item("mass_kg", PyArray1::from_iter(py, standing.bodies.iter().map(|body| body.mass)))?;
+        Ok(result)
     }
 
     /// What a charge sees: number of the nearest body on each pixel of its sphere map, -1 where there is none, and

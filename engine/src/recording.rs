@@ -47,6 +47,8 @@ pub struct BodyFacts {
     /// Speed at the end of its loading [m/s]; at the end of the run if that comes first; the highest of them where
     /// charges load it one after the other.
     pub launch_speed: f64,
+    /// Velocity at the end of the run [m/s].
+    pub final_velocity: DVec3,
     /// When it came to rest for good [s]; 0 if it never moved, not a number if it still moves.
     pub rest_time: f64,
 }

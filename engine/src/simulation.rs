@@ -23,6 +23,7 @@ use contacts::Contacts;
 use later::Later;
 pub use shelter::{Shelters, seen_from};
 use targets::{LoadQueue, Peaks, Shot, Target};
+use window::Sheet;
 pub use window::{Fate, Pane, Panes, standing};
 
 /// Below this many bodies a step is not worth sharing among threads.
@@ -98,6 +99,8 @@ struct Life {
     ground_friction: f64,
     /// What holds it until it may move, and where it rests meanwhile.
     hold: Option<Box<(Hold, (DVec3, DQuat))>>,
+    /// Of a piece of a pane, how its load follows it.
+    sheet: Option<Sheet>,
     /// For how long it has been lying calmly [s].
     calm: f64,
     /// Impulse of friction in the last step [N s].
@@ -409,7 +412,7 @@ impl World {
             Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
             Phase::Anchored => {
                 if life.queue.acts(t0, t1) {
-                    life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
+                    self.load(body, life, t0, t1, false);
                     body.velocity = DVec3::ZERO;
                     body.angular_momentum = DVec3::ZERO;
                 }
@@ -431,12 +434,15 @@ impl World {
         }
     }
 
-    /// Puts panel loads and wind on a body's velocity and angular momentum; returns the impulse [N s].
-    fn load(&self, body: &mut RigidBody, queue: &mut LoadQueue, t0: f64, t1: f64, free: bool) -> DVec3 {
-        let (impulse, angular) = queue.take(t0, t1, free);
+    /// Puts panel loads and wind on a body's velocity and angular momentum.
+    fn load(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64, free: bool) {
+        let (mut impulse, mut angular) = life.queue.take(t0, t1, free);
+        if let Some(sheet) = life.sheet.filter(|_| free && impulse != DVec3::ZERO) {
+            (impulse, angular) = sheet.turn(body, impulse, angular, t1 - t0);
+        }
         body.push(impulse, angular);
-        let winds = Winds { winds: &queue.winds, air: self.air };
-        body.world_from_principal * impulse + body.blow(winds, t0, t1)
+        let winds = Winds { winds: &life.queue.winds, air: self.air };
+        life.facts.impulse += body.world_from_principal * impulse + body.blow(winds, t0, t1);
     }
 
     /// A step of a piece that is held, to its end or until it is free and on from there.
@@ -473,7 +479,7 @@ impl World {
         t1: f64,
     ) -> Concern {
         let before = body.velocity;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, false);
+        self.load(body, life, t0, t1, false);
         let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
         life.rubbed = rubbed;
         match outcome {
@@ -501,7 +507,7 @@ impl World {
         let before = body.velocity;
         let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
         body.velocity += half_fall;
-        life.facts.impulse += self.load(body, &mut life.queue, t0, t1, true);
+        self.load(body, life, t0, t1, true);
         body.velocity += half_fall;
         body.position += (before + body.velocity) * (0.5 * dt);
         body.turn(dt);
@@ -529,6 +535,7 @@ impl Life {
     fn new(target: Target, hold: Option<Hold>, in_place: f64, on_ground: f64) -> Self {
         let (low, high) = target.bounds;
         let extent = (high.x - low.x).min(high.z - low.z);
+        let sheet = hold.is_some().then(|| Sheet::new(&target));
         Self {
             place: Place::new(&target.body, extent, in_place),
             launched: target.queue.end <= 0.0,
@@ -539,6 +546,7 @@ impl Life {
             object_from_principal: target.object_from_principal,
             extent,
             ground_friction: on_ground,
+            sheet,
             hold: hold.map(|hold| {
                 let rest = (target.body.position, target.body.world_from_principal);
                 Box::new((hold, rest))
@@ -569,6 +577,7 @@ impl Life {
         if !self.launched {
             self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
         }
+        self.facts.final_velocity = body.velocity;
         self.facts
     }
 }

@@ -40,8 +40,8 @@ def check_fits(frames: int, pieces: int) -> None:
 
 
 def most_pieces(frames: int, others: int) -> int | None:
-    """How many pieces panes may break into, beside ``others``, so that ``frames`` of them fit in memory; None where
-    the system does not tell.
+    """How many pieces panes may break into, beside ``others``, so that ``frames`` of them fit in memory;
+    None where the system does not tell.
     """
     available = available_bytes()
     if available is None:

@@ -67,8 +67,9 @@ class Pane:
     """(F,) how far it bends at each frame, as the pressure that would bend it as far at rest [Pa]."""
 
     broken_at_s: float
-    """When it stops being seen as one whole [s]: when it fails, or when the front comes to one that was in pieces
-    before; infinite for one that holds."""
+    """When it stops being seen as one whole [s]: when it fails, or when the front comes to one that was in
+    pieces before; infinite for one that holds.
+    """
 
 
 @dataclass(frozen=True, eq=False)

@@ -73,9 +73,7 @@ def dump(scene: Scene, path: Path | str) -> None:
 
 
 def _keys(part: Any) -> dict[str, Any]:
-    keys: dict[str, Any] = part.model_dump(
-        mode="json", by_alias=True, exclude_unset=True, exclude_none=True
-    )
+    keys: dict[str, Any] = part.model_dump(mode="json", by_alias=True, exclude_unset=True, exclude_none=True)
     return keys
 
 

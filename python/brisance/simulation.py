@@ -20,7 +20,7 @@ from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits, most_pieces
 from brisance.model import AnyObject, Scene, Window
 from brisance.objects import pieces
-from brisance.piece import PieceMesh, PieceSet
+from brisance.piece import PieceSet
 from brisance.placement import check_charges, ground_warnings
 from brisance.result import Bodies, Pane, Result, Source
 
@@ -41,15 +41,18 @@ class Built:
     """The windows; whole panes stand after all other bodies, and after a run their pieces."""
     warnings: list[str]
 
-    @property
-    def names(self) -> list[str]:
-        """Name of every body, in order."""
-        return [name for group in self.sets for name in group.names]
+    panes: list[PieceSet]
+    """One a window: its pane in one piece."""
 
     @property
-    def meshes(self) -> list[PieceMesh]:
-        """Mesh of every body, in order."""
-        return [mesh for group in self.sets for mesh in group.meshes]
+    def standing(self) -> list[PieceSet]:
+        """What stands before the blast, in the engine's order: all pieces of objects, then whole panes."""
+        return [*self.sets, *self.panes]
+
+    @property
+    def names(self) -> list[str]:
+        """Name of every body that is no piece of a pane, in order."""
+        return [name for group in self.sets for name in group.names]
 
 
 def simulate(scene: Scene, *, progress: bool = False, threads: int | None = None) -> Result:
@@ -114,9 +117,7 @@ def build(scene: Scene) -> Built:
                 gain=charge.gain,
                 source=_source(scene, number),
             )
-        sets = [
-            pieces(obj, base_folder=scene.base_folder, seed=seed) for obj, seed in _seeded(scene)
-        ]
+        sets = [pieces(obj, base_folder=scene.base_folder, seed=seed) for obj, seed in _seeded(scene)]
         for group in sets:
             if group.add_to is not None:
                 group.add_to(engine)
@@ -125,9 +126,20 @@ def build(scene: Scene) -> Built:
         raise InputError(str(error)) from error
     check_charges(scene, sets)
     windows = [obj for obj in scene.objects if isinstance(obj, Window)]
-    built = Built(engine, sets, windows, [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)])
+    panes = [_whole(window, scene) for window in windows]
+    warnings = [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)]
+    built = Built(engine, sets, windows, warnings, panes)
     _check_names(built)
     return built
+
+
+def _whole(window: Window, scene: Scene) -> PieceSet:
+    """The pane of a window in one piece."""
+    from brisance.objects.window import glazing, whole_mesh
+
+    name = window.name or window.kind
+    mesh = whole_mesh(glazing(window, base_folder=scene.base_folder).rings, window.thickness)
+    return PieceSet(name=name, material="glass", names=[name], meshes=[mesh])
 
 
 def _seeded(scene: Scene) -> Iterator[tuple[AnyObject, int]]:
@@ -192,7 +204,7 @@ def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
 
 
 def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
-    panes = _panes(scene, built, recording)
+    panes = _panes(built, recording)
     sets = [*(group for group in built.sets if len(group)), *(group for group, _ in panes)]
     sources, start = [], 0
     for group in sets:
@@ -229,23 +241,21 @@ def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
     )
 
 
-def _panes(scene: Scene, built: Built, recording: _engine.Recording) -> list[tuple[PieceSet, Pane]]:
+def _panes(built: Built, recording: _engine.Recording) -> list[tuple[PieceSet, Pane]]:
     """The pieces of each window, and what became of its pane."""
     if not built.windows:
         return []
-    from brisance.objects.window import glazing, pane_pieces, whole_mesh
+    from brisance.objects.window import pane_pieces
 
     start, found = len(built.names), []
     held_back, times = recording.held_back_n_s, recording.times.tolist()
-    for window, after in zip(built.windows, recording.panes, strict=True):
-        name = window.name or window.kind
-        group = pane_pieces(window, after, name=name)
+    for window, whole, after in zip(built.windows, built.panes, recording.panes, strict=True):
+        group = pane_pieces(window, after, name=whole.name)
         stop = start + len(group)
-        rings = glazing(window, base_folder=scene.base_folder).rings
-        mesh = whole_mesh(rings, window.thickness)
+        mesh = whole.meshes[0]
         taken = held_back[start:stop].sum(axis=0).tolist()
         pane = Pane(
-            name=name,
+            name=whole.name,
             window=window,
             fate=after.fate,
             failure_time_s=after.failure_time_s,

@@ -64,7 +64,7 @@ def done(capsys: Capture, *arguments: str | Path) -> tuple[str, str]:
         (["run", "none.toml"], "none.toml does not exist"),
         (["run", "."], ". is a directory"),
         (["run", "bad.toml"], "bad.toml is not valid TOML"),
-        (["run", "window.toml"], "[[window]]"),
+        (["run", "window.toml"], "window.0 has no height; give the size of the pane"),
         (["run", WALL, "--set", "charge.0.mass=-1"], "must be greater than 0"),
         (["run", WALL, "--set", "charge.0.mass=nan"], "finite"),
         (["run", WALL, "--set", "charge.0.masss=1"], "did you mean mass?"),

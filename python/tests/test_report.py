@@ -29,6 +29,7 @@ BODY_KEYS = {
     "impulse_n_s",
     "attenuation",
     "launch_speed_m_s",
+    "free_time_s",
     "rest_time_s",
     "final_position_m",
 }

@@ -238,7 +238,6 @@ def test_changes_apply_in_order_and_make_missing_tables(tmp_path: Path) -> None:
         ("[[charge]\nmass = 1\n", "is not valid TOML"),
         ("a = 1\na = 2\n", "is not valid TOML"),
         ("", "the scene has no charge"),
-        ("[[window]]\n" + SMALL, "[[window]]"),
         ("charge = 3\n", "charge must be a list of tables, not 3"),
         (SMALL.replace("mass = 100\n", ""), "charge.0.mass is missing"),
         (SMALL + SMALL[SMALL.index("[[block]]") :], "block.1.name 'crate' is already the name of block.0"),

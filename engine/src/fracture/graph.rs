@@ -5,11 +5,14 @@
 //! exact predicates, and every face is walked with its area on the left. Stems are cut off too: where a crack curls
 //! up and meets itself, the way there has the same face on both sides.
 
+mod holes;
+
 use core::cmp::Ordering;
 
 use glam::DVec2;
 
 use super::growth::{Stop, Traces};
+use super::order;
 use super::outline::turn;
 use super::run::NONE;
 use super::settings::Settings;
@@ -64,7 +67,7 @@ struct Loop {
 }
 
 /// The faces that traces bound, in a fixed order.
-pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
+pub(super) fn faces(traces: &Traces, settings: &Settings) -> Faces {
     let mut graph = Graph::new(traces, settings);
     let (loops, loop_of) = graph.part();
     let holes = graph.holes(&loops, &loop_of);
@@ -86,9 +89,10 @@ pub(super) fn faces(traces: &mut Traces, settings: &Settings) -> Faces {
 }
 
 impl Graph {
-    fn new(traces: &mut Traces, settings: &Settings) -> Self {
-        let stops = sorted_stops(&traces.stops, traces.tips.len());
-        let merged = merge_close(&stops, traces.vertices.len(), traces.resolution);
+    fn new(traces: &Traces, settings: &Settings) -> Self {
+        let mut stops = order::sorted_stops(traces, settings);
+        let vertices = order::renumber(&mut stops, &traces.vertices, traces.borders);
+        let merged = merge_close(&stops, vertices.len(), traces.resolution);
         let mut edges = Vec::with_capacity(stops.len());
         let mut borders = 0;
         for pair in stops.windows(2) {
@@ -98,17 +102,10 @@ impl Graph {
             }
             let on_border = (pair[0].trace as usize) < traces.borders;
             borders += usize::from(on_border);
-            let cut = || pair[1].at + settings.delay(traces.vertices[to as usize]);
+            let cut = || pair[1].at + settings.delay(vertices[to as usize]);
             edges.push(Edge { from, to, time: if on_border { f64::NEG_INFINITY } else { cut() } });
         }
-        Self {
-            vertices: core::mem::take(&mut traces.vertices),
-            edges,
-            borders,
-            leaving: Vec::new(),
-            first: Vec::new(),
-            next: Vec::new(),
-        }
+        Self { vertices, edges, borders, leaving: Vec::new(), first: Vec::new(), next: Vec::new() }
     }
 
     /// Every walk round a face and for each half-edge the one it belongs to, once only such edges are left as part
@@ -298,57 +295,6 @@ impl Graph {
         (loops, loop_of)
     }
 
-    /// Which walk is a hole in which face, sorted by face. Holes are cracks, or holes of the pane, that nothing
-    /// connects to the rest.
-    fn holes(&self, loops: &[Loop], loop_of: &[u32]) -> Vec<(u32, u32)> {
-        let mut islands: Vec<(u32, DVec2)> = (loops.iter().enumerate())
-            .filter(|(_, walk)| !walk.outside && walk.area <= 0.0)
-            .map(|(index, walk)| (index as u32, self.leftmost(walk)))
-            .collect();
-        islands.sort_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let mut holes: Vec<(u32, u32)> = Vec::with_capacity(islands.len());
-        for (island, point) in islands {
-            let Some(beside) = self.left_of(point, island, loop_of) else { continue };
-            // What is left of an island is a face, or an island in the same face, which has been placed already.
-            let face = holes.iter().find(|&&(_, hole)| hole == beside).map_or(beside, |&(face, _)| face);
-            holes.push((face, island));
-        }
-        holes.sort_unstable();
-        holes
-    }
-
-    fn leftmost(&self, walk: &Loop) -> DVec2 {
-        self.walk(walk)
-            .map(|half| self.vertices[self.origin(half) as usize])
-            .min_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))
-            .expect("a walk has vertices")
-    }
-
-    /// The walk whose inside is met first on the way to the left from a point.
-    fn left_of(&self, point: DVec2, island: u32, loop_of: &[u32]) -> Option<u32> {
-        let mut nearest: Option<(f64, [DVec2; 2], u32)> = None;
-        for (half, &walk) in loop_of.iter().enumerate() {
-            if walk == NONE || walk == island {
-                continue;
-            }
-            let from = self.vertices[self.origin(half as u32) as usize];
-            let to = self.vertices[self.target(half as u32) as usize];
-            // Downward half-edges have their inside to the right of them.
-            if from.y > point.y && to.y <= point.y && turn(from, to, point) > 0.0 {
-                let level = (from.y - point.y) / (from.y - to.y);
-                let x = if to.y == point.y { to.x } else { from.x + (to.x - from.x) * level };
-                // Of two that end in one vertex at this very height, the one farther right above it is nearer.
-                let nearer = nearest.is_none_or(|(best, [tail, head], _)| {
-                    x > best || (x == best && turn(tail, head, from) > 0.0)
-                });
-                if nearer {
-                    nearest = Some((x, [from, to], walk));
-                }
-            }
-        }
-        nearest.map(|(_, _, walk)| walk)
-    }
-
     fn walk(&self, walk: &Loop) -> impl Iterator<Item = u32> + '_ {
         let mut half = walk.start;
         (0..walk.length).map(move |_| {
@@ -376,29 +322,6 @@ impl Graph {
 fn around(centre: DVec2, a: DVec2, b: DVec2) -> Ordering {
     let lower = |p: DVec2| p.y < centre.y || (p.y == centre.y && p.x < centre.x);
     lower(a).cmp(&lower(b)).then_with(|| 0.0.partial_cmp(&turn(centre, a, b)).expect("vertices are finite"))
-}
-
-/// Stops by trace, and along each trace by place.
-fn sorted_stops(stops: &[Stop], traces: usize) -> Vec<Stop> {
-    let mut first = vec![0u32; traces + 1];
-    for stop in stops {
-        first[stop.trace as usize + 1] += 1;
-    }
-    for trace in 0..traces {
-        first[trace + 1] += first[trace];
-    }
-    let mut place = first.clone();
-    let mut sorted = vec![Stop { trace: 0, at: 0.0, vertex: 0 }; stops.len()];
-    for stop in stops {
-        let slot = &mut place[stop.trace as usize];
-        sorted[*slot as usize] = *stop;
-        *slot += 1;
-    }
-    for trace in 0..traces {
-        sorted[first[trace] as usize..first[trace + 1] as usize]
-            .sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.vertex.cmp(&b.vertex)));
-    }
-    sorted
 }
 
 /// Sets of vertices that are one.

@@ -17,7 +17,8 @@ use std::collections::VecDeque;
 use glam::DVec2;
 
 use super::calendar::Calendar;
-use super::run::{BORDER, Grid, NONE, Run};
+use super::grid::Grid;
+use super::run::{BORDER, NONE, Run};
 use super::settings::{Guide, Settings};
 use crate::error::{Error, Result};
 use crate::geometry::Polygon;
@@ -27,6 +28,8 @@ use crate::random;
 const RESOLUTION: f64 = 1e-10;
 /// Cells along the pane's longer side at most; a sketch tells places apart to a ten-thousandth of a cell then.
 const MOST_CELLS: f64 = 2e3;
+/// Most entries that are made room for ahead.
+const MOST_RESERVED: f64 = 1e6;
 /// Events after which the observer is asked whether to go on: some milliseconds.
 const BETWEEN_OBSERVATIONS: u32 = 1 << 13;
 
@@ -59,7 +62,8 @@ pub(super) struct Tip {
     run: u32,
     /// The trace that stopped it; `NONE` while it runs, where it forked, and where it just ended.
     pub stopped_by: u32,
-    tree: u32,
+    /// The nucleus from which it comes; `NONE` for an edge of the border.
+    pub tree: u32,
     depth: u16,
     kind: Kind,
     running: bool,
@@ -136,7 +140,10 @@ impl<'a> Growth<'a> {
     pub fn new(outline: &Polygon, settings: &'a Settings) -> Self {
         let (low, high) = bounds(outline.points());
         let extent = (high - low).max_element();
-        let cell = cell_size(outline, settings, extent);
+        let pieces = expected_pieces(outline, settings);
+        let cell = cell_size(outline, settings, pieces, extent);
+        // Most of what pieces leave behind; more than this is moved page by page when it grows.
+        let room = |each: f64| (each * pieces).min(MOST_RESERVED) as usize;
         let strongest_stress = match &settings.guide {
             Guide::Stress { field, .. } => field.strongest(),
             _ => 0.0,
@@ -144,10 +151,10 @@ impl<'a> Growth<'a> {
         let mut growth = Self {
             settings,
             done: Traces {
-                vertices: Vec::new(),
-                stops: Vec::new(),
-                runs: Vec::new(),
-                tips: Vec::new(),
+                vertices: Vec::with_capacity(room(2.5)),
+                stops: Vec::with_capacity(room(5.0)),
+                runs: Vec::with_capacity(room(3.5)),
+                tips: Vec::with_capacity(room(2.0)),
                 borders: 0,
                 resolution: RESOLUTION * extent,
             },
@@ -249,7 +256,7 @@ impl<'a> Growth<'a> {
             let next = (at + self.grid.cell).min(run.to);
             let sketch = self.grid.sketch(run.point(at), run.point(next));
             for cell in self.grid.cells(&sketch) {
-                self.grid.put(cell, sketch, number);
+                self.grid.put(cell, &sketch, number);
             }
             at = next;
         }
@@ -328,16 +335,16 @@ impl<'a> Growth<'a> {
     fn lay_out(&mut self, number: u32) {
         let run = self.done.runs[number as usize];
         let sketch = self.grid.sketch(run.origin, run.point(run.to));
+        self.near.clear();
         for cell in self.grid.cells(&sketch) {
-            self.near.clear();
             self.near.extend(self.grid.near(cell, &sketch));
-            for near in 0..self.near.len() {
-                let index = self.near[near];
-                if self.done.runs[index as usize].note(number) {
-                    self.compare(number, &run, index);
-                }
+            self.grid.put(cell, &sketch, number);
+        }
+        for near in 0..self.near.len() {
+            let index = self.near[near];
+            if self.done.runs[index as usize].note(number) {
+                self.compare(number, &run, index);
             }
-            self.grid.put(cell, sketch, number);
         }
     }
 
@@ -354,8 +361,7 @@ impl<'a> Growth<'a> {
         if second || meeting.head_on {
             self.queue.schedule(own, Happening::Meet { run: number, other: index });
         }
-        let other = &self.done.runs[index as usize];
-        if (!second || meeting.head_on) && self.done.tips[other.trace as usize].run == index {
+        if !second || meeting.head_on {
             self.queue.schedule(theirs, Happening::Meet { run: index, other: number });
         }
     }
@@ -363,6 +369,9 @@ impl<'a> Growth<'a> {
     /// A run comes to its planned end: the tip goes on, turns, or has reached as far as it may.
     fn end(&mut self, number: u32, now: f64) {
         let run = self.done.runs[number as usize];
+        if run.to < now {
+            return;
+        }
         let tip = self.done.tips[run.trace as usize];
         if !tip.running || tip.run != number {
             return;
@@ -436,13 +445,17 @@ impl<'a> Growth<'a> {
 
     /// A tip has come to another trace: it stops there, if both have come that far.
     fn stop(&mut self, number: u32, other: u32, now: f64) {
-        let (run, hit) = (self.done.runs[number as usize], self.done.runs[other as usize]);
-        let tip = self.done.tips[run.trace as usize];
+        let run = self.done.runs[number as usize];
         let slack = self.done.resolution;
+        if run.to + 2.0 * slack < now {
+            return;
+        }
+        let tip = self.done.tips[run.trace as usize];
         let just_stopped = !tip.running && tip.end != NONE && now < run.to + slack;
         if tip.run != number || !(tip.running || just_stopped) {
             return;
         }
+        let hit = self.done.runs[other as usize];
         let Some(meeting) = run.meet(&hit, slack) else { return };
         let place = meeting.second.min(hit.to);
         if meeting.second > hit.to + slack {
@@ -489,12 +502,16 @@ fn bounds(points: &[DVec2]) -> (DVec2, DVec2) {
     points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-/// Edge of the grid's cells [m]: about the distance between neighbouring cracks.
-fn cell_size(outline: &Polygon, settings: &Settings, extent: f64) -> f64 {
+/// About how many pieces there will be.
+fn expected_pieces(outline: &Polygon, settings: &Settings) -> f64 {
     let count = settings.nuclei.len() as f64;
     let share = libm::sqrt(outline.area() / count);
     let arms: usize = settings.nuclei.iter().map(|n| n.arms.len()).sum();
-    let pieces = arms as f64 + count * share / settings.critical_length;
+    arms as f64 + count * share / settings.critical_length
+}
+
+/// Edge of the grid's cells [m]: about the distance between neighbouring cracks.
+fn cell_size(outline: &Polygon, settings: &Settings, pieces: f64, extent: f64) -> f64 {
     let spacing = libm::sqrt(outline.area() / pieces);
     // Where cracks turn often their runs are short, and smaller cells hold fewer of them.
     let spacing = if settings.turns() { spacing.min(8.0 * settings.wiggle.spacing) } else { spacing };

@@ -70,9 +70,9 @@ impl<'a> Cracks<'a> {
     }
 
     /// Finds the fragments.
-    pub fn into_pattern(mut self) -> Pattern {
+    pub fn into_pattern(self) -> Pattern {
         let cracks = cracks(&self.traces, self.settings);
-        let faces = graph::faces(&mut self.traces, self.settings);
+        let faces = graph::faces(&self.traces, self.settings);
         let pattern = Pattern { cracks, faces };
         assert!(pattern.fills(self.area), "fragments do not fill the pane");
         pattern

@@ -22,7 +22,9 @@ pub struct Pieces {
 }
 
 /// Pieces that are worked on at a time: enough to be worth a thread's while.
-const CHUNK: usize = 512;
+const CHUNK: usize = 256;
+/// Chunks for each thread before they are put together.
+const CHUNKS_EACH: usize = 4;
 
 /// What working on a piece needs again and again.
 #[derive(Default)]
@@ -42,20 +44,22 @@ impl Pieces {
         positive("thickness of the pane [m]", thickness)?;
         positive("density of the pane [kg/m³]", density)?;
         let starts: Vec<usize> = (0..pattern.len()).step_by(CHUNK).collect();
-        let parts: Vec<Self> = starts
-            .into_par_iter()
-            .map_init(Scratch::default, |scratch, start| {
-                let mut part = Self::default();
-                for index in start..(start + CHUNK).min(pattern.len()) {
-                    pattern.fragment(index).outline(&mut scratch.polygon);
-                    part.push(scratch, thickness, density)?;
-                }
-                Ok(part)
-            })
-            .collect::<Result<_>>()?;
-        let mut parts = parts.into_iter();
-        let mut whole = parts.next().unwrap_or_default();
-        parts.for_each(|part| whole.append(part));
+        let mut whole = Self::default();
+        // A few parts at a time: they are still in the cache when they are put together, and use the same memory.
+        for batch in starts.chunks(CHUNKS_EACH * rayon::current_num_threads()) {
+            let parts: Vec<Self> = batch
+                .into_par_iter()
+                .map_init(Scratch::default, |scratch, &start| {
+                    let mut part = Self::default();
+                    for index in start..(start + CHUNK).min(pattern.len()) {
+                        pattern.fragment(index).outline(&mut scratch.polygon);
+                        part.push(scratch, thickness, density)?;
+                    }
+                    Ok(part)
+                })
+                .collect::<Result<_>>()?;
+            parts.into_iter().for_each(|part| whole.append(part));
+        }
         Ok(whole)
     }
 

@@ -1,6 +1,6 @@
 //! A straight stretch of a crack or of the pane's border, and where two of them meet.
 
-use glam::{DVec2, Vec2};
+use glam::DVec2;
 
 /// No run, vertex or tip.
 pub(super) const NONE: u32 = u32::MAX;
@@ -134,115 +134,5 @@ impl Run {
             return None;
         }
         Some(Meeting { first: self.from + place, second: other.from + (place - start) * sense, head_on })
-    }
-}
-
-/// Where a run lies, roughly: its ends in cells of the grid from its corner.
-///
-/// Good enough to see which runs cannot meet, without fetching them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sketch {
-    ends: [Vec2; 2],
-}
-
-/// What rounding to a sketch costs at most, and more [cells].
-const BLUR: f32 = 2e-3;
-
-impl Sketch {
-    /// Whether two runs may meet: neither lies wholly on one side of the other.
-    #[inline]
-    fn may_meet(&self, other: &Self) -> bool {
-        !self.has_to_one_side(other) && !other.has_to_one_side(self)
-    }
-
-    #[inline]
-    fn has_to_one_side(&self, other: &Self) -> bool {
-        let along = self.ends[1] - self.ends[0];
-        let blur = BLUR * (along.x.abs() + along.y.abs());
-        let sides = other.ends.map(|end| along.perp_dot(end - self.ends[0]));
-        (sides[0] > blur && sides[1] > blur) || (sides[0] < -blur && sides[1] < -blur)
-    }
-}
-
-/// A uniform grid of lists of runs, to find who may meet whom.
-#[derive(Debug)]
-pub(super) struct Grid {
-    low: DVec2,
-    inverse: f64,
-    /// Edge of a cell [m]: no run of a crack is longer.
-    pub cell: f64,
-    columns: usize,
-    rows: usize,
-    /// The newest block of each cell's list.
-    heads: Vec<u32>,
-    blocks: Vec<Block>,
-}
-
-/// Runs in one block.
-const BLOCK: usize = 6;
-
-/// Some runs of a cell, in two cache lines.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
-struct Block {
-    sketches: [Sketch; BLOCK],
-    runs: [u32; BLOCK],
-    count: u32,
-    next: u32,
-}
-
-impl Grid {
-    /// A grid over the rectangle from `low` to `high` with cells of `cell` [m].
-    pub fn new(low: DVec2, high: DVec2, cell: f64) -> Self {
-        let size = high - low;
-        let count = |length: f64| (length / cell) as usize + 1;
-        let (columns, rows) = (count(size.x), count(size.y));
-        let heads = vec![NONE; columns * rows];
-        Self { low, inverse: 1.0 / cell, cell, columns, rows, heads, blocks: Vec::new() }
-    }
-
-    /// Where a run from `a` to `b` lies [m].
-    #[inline]
-    pub fn sketch(&self, a: DVec2, b: DVec2) -> Sketch {
-        Sketch { ends: [a, b].map(|end| ((end - self.low) * self.inverse).as_vec2()) }
-    }
-
-    /// Cells that the box round a run touches.
-    #[inline]
-    pub fn cells(&self, sketch: &Sketch) -> impl Iterator<Item = usize> + use<> {
-        let [a, b] = sketch.ends;
-        let (low, high) = (a.min(b) - BLUR, a.max(b) + BLUR);
-        let clamp = |x: f32, count: usize| (x.max(0.0) as usize).min(count - 1);
-        let columns = clamp(low.x, self.columns)..=clamp(high.x, self.columns);
-        let width = self.columns;
-        (clamp(low.y, self.rows)..=clamp(high.y, self.rows))
-            .flat_map(move |row| columns.clone().map(move |column| row * width + column))
-    }
-
-    /// Runs in a cell that one may meet, the newest block first.
-    #[inline]
-    pub fn near(&self, cell: usize, sketch: &Sketch) -> impl Iterator<Item = u32> + use<'_> {
-        let sketch = *sketch;
-        let first = self.blocks.get(self.heads[cell] as usize);
-        core::iter::successors(first, |block| self.blocks.get(block.next as usize)).flat_map(move |block| {
-            (0..block.count as usize)
-                .filter(move |&i| block.sketches[i].may_meet(&sketch))
-                .map(|i| block.runs[i])
-        })
-    }
-
-    /// Puts a run into a cell.
-    pub fn put(&mut self, cell: usize, sketch: Sketch, run: u32) {
-        let head = self.heads[cell];
-        if let Some(block) = self.blocks.get_mut(head as usize)
-            && (block.count as usize) < BLOCK
-        {
-            block.sketches[block.count as usize] = sketch;
-            block.runs[block.count as usize] = run;
-            block.count += 1;
-            return;
-        }
-        self.heads[cell] = self.blocks.len() as u32;
-        self.blocks.push(Block { sketches: [sketch; BLOCK], runs: [run; BLOCK], count: 1, next: head });
     }
 }

@@ -142,7 +142,15 @@ pub fn shelter(solids: &[Solid], eye: DVec3, ground: Option<f64>, settings: &Set
     let masks = groups.masks(&map, &views, &seen, ground.map_or(f64::NEG_INFINITY, |height| height - eye.y));
     let columns = Columns::new(&map, &masks);
     let enclosed = columns.enclosed(&map, ground.is_some_and(|height| eye.y >= height));
-    let reader = Reader { map: &map, columns: &columns, masks: &masks, eye, settings };
+    let reader = Reader {
+        map: &map,
+        columns: &columns,
+        masks: &masks,
+        views: &views,
+        occluders: &groups.occluders,
+        eye,
+        settings,
+    };
     let read: Vec<(Shelter, Vec<Shelter>)> = (0..solids.len())
         .into_par_iter()
         .map_init(

@@ -88,6 +88,9 @@ pub(super) struct Reader<'a> {
     pub map: &'a SphereMap,
     pub columns: &'a Columns,
     pub masks: &'a [Mask],
+    /// All bodies, and those of each group that hide what is behind them.
+    pub views: &'a [View<'a>],
+    pub occluders: &'a [Vec<usize>],
     pub eye: DVec3,
     pub settings: &'a Settings,
 }
@@ -150,7 +153,7 @@ impl Reader<'_> {
         group: u32,
     ) -> (Shelter, Vec<Shelter>) {
         self.sample_body(desk, solid, view, hits);
-        let body = if self.look(desk, group) {
+        let body = if self.look(desk, group, false) {
             self.measure(desk);
             self.shelter(desk, &desk.samples)
         } else {
@@ -161,7 +164,7 @@ impl Reader<'_> {
         }
         desk.samples.clear();
         desk.samples.extend(solid.points.iter().map(|point| self.sample_at(point.position - self.eye, 1.0)));
-        if !self.look(desk, group) {
+        if !self.look(desk, group, solid.by_point) {
             return (body, vec![Shelter::NONE; solid.points.len()]);
         }
         self.measure(desk);
@@ -205,8 +208,9 @@ impl Reader<'_> {
         Sample { direction, pixel: self.map.pixel(direction) as u32, distance, weight, ..Sample::NONE }
     }
 
-    /// Lists the groups in front of any sample, and how much of each sample they hide; whether there are any.
-    fn look(&self, desk: &mut Desk, own: u32) -> bool {
+    /// Lists the groups in front of any sample, and how much of each sample they hide; whether there are any. A sample
+    /// stands for its pixel, or, where it is `exact`, for its own ray: all of it is hidden or none.
+    fn look(&self, desk: &mut Desk, own: u32, exact: bool) -> bool {
         desk.round += 1;
         desk.listed.clear();
         for sample in &mut desk.samples {
@@ -217,7 +221,12 @@ impl Reader<'_> {
             let closest =
                 column[..nearer].iter().rev().filter(|entry| entry.group != own).take(MOST_IN_FRONT);
             for entry in closest {
-                open *= 1.0 - f64::from(entry.cover);
+                let direction = sample.direction;
+                let met = |&body: &usize| self.views[body].is_met(direction);
+                if exact && entry.cover < 1.0 && !self.occluders[entry.group as usize].iter().any(met) {
+                    continue;
+                }
+                open *= if exact { 0.0 } else { 1.0 - f64::from(entry.cover) };
                 sample.rear = sample.rear.max(f64::from(entry.far).min(sample.distance));
                 let found = &mut desk.found[entry.group as usize];
                 if *found != desk.round {

@@ -17,7 +17,8 @@ pub struct Solid {
     pub occludes: bool,
     /// Where its shelter is read when asked per panel, or when it is too small for the map.
     pub points: Vec<SurfacePoint>,
-    /// Whether shelter is read at each of its points whatever the settings say.
+    /// Whether shelter is read at each of its points whatever the settings say, and on that point's own ray: for a large
+    /// body that comes apart, and may fill an opening narrower than a pixel.
     pub by_point: bool,
 }
 

@@ -195,9 +195,10 @@ impl Simulation {
             life.change = None;
             self.bodies.set(index, &body);
         } else if loaded {
-            let impulse = self.world.load(&mut body, &mut life.queue, t0, t1, life.away);
-            life.facts.impulse += impulse;
-            if impulse != DVec3::ZERO {
+            let before = (body.velocity, body.angular_momentum);
+            let away = life.away;
+            self.world.load(&mut body, life, t0, t1, away);
+            if (body.velocity, body.angular_momentum) != before {
                 contacts.world.drive(index, &body);
             }
         } else if body.velocity.length_squared() > FELT_SPEED * FELT_SPEED {

@@ -216,21 +216,22 @@ pub(super) fn aim(
         }));
         listen()?;
     }
-    in_time(&targets)?;
+    in_time(scene, &targets)?;
     Ok(targets)
 }
 
 /// Refuses loads that begin before the scene does.
-fn in_time(targets: &[Target]) -> Result<()> {
-    let earliest = targets.iter().map(|target| target.queue.start).fold(f64::INFINITY, f64::min);
-    if earliest < 0.0 {
-        return Err(Error::Malformed(format!(
-            "a charge goes off so long before the scene begins that its front has come to a body {:.4} s too early: \
-             let it go off later",
-            -earliest
-        )));
-    }
-    Ok(())
+fn in_time(scene: &Scene, targets: &[Target]) -> Result<()> {
+    let firsts = targets.iter().filter_map(|target| target.queue.panels.first());
+    let first = firsts.min_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
+    let Some(early) = first.filter(|load| load.history.arrival() < 0.0) else { return Ok(()) };
+    let latest = scene.charges[early.charge].time - early.history.arrival();
+    Err(Error::Malformed(format!(
+        "charge {} goes off so long before the scene begins that its front has reached a body by then; let it go off at \
+         {:.4} s or later",
+        early.charge,
+        libm::ceil(1e4 * latest) * 1e-4
+    )))
 }
 
 /// Outlines of all assemblies of a scene.

@@ -11,6 +11,7 @@ from brisance import _engine
 from brisance.cli.table import Cell, count, table
 from brisance.curve_table import curve_source
 from brisance.model import Charge, Scene
+from brisance.piece import PieceMesh
 from brisance.rotation import rotate
 from brisance.scene_file import load
 from brisance.simulation import Built, build
@@ -23,32 +24,26 @@ def describe(path: Path, changes: list[str]) -> str:
     """The scene in a file, as text."""
     scene = load(path, changes)
     built = build(scene)
-    # The initial frame alone says where every piece's centre of mass is and what it weighs.
-    start = build(_first_frame(scene)).engine.simulate()
-    centres = start.positions[0].astype(np.float64)
-    orientations = start.orientations[0].astype(np.float64)
+    start = built.engine.standing()
+    centres, orientations = start["centre_m"], start["orientation"]
+    count_now = sum(len(group) for group in built.standing)
     time, ground = scene.time, scene.ground
     lasting = f"until all rests, at most {time.longest:g} s" if time.until_rest else f"{time.end:g} s"
     parts = [
         f"{scene.name}: {count(len(scene.charges), 'charge')}, {count(len(scene.objects), 'object')}, "
-        f"{count(len(built.names), 'piece')}",
+        f"{count(count_now, 'piece')}{' before panes break' if built.windows else ''}",
         f"{count(time.frames, 'frame')}: {lasting} at {time.frame_rate:g} frames/s; "
         + (f"ground at y = {ground.height:g} m" if ground else "no ground")
         + f"; {scene.loading.mode} loading, clearing {scene.loading.clearing}, seed {scene.seed}",
         "",
         _charges(scene),
         "",
-        _objects(scene, built, centres, start.mass_kg),
+        _objects(scene, built, centres, start["mass_kg"]),
         "",
         _blast(scene, built, centres, orientations),
     ]
     parts += [f"warning: {warning}" for warning in built.warnings]
     return "\n".join(parts)
-
-
-def _first_frame(scene: Scene) -> Scene:
-    time = scene.time.model_copy(update={"duration": 0.1 / scene.time.frame_rate, "step": None})
-    return scene.model_copy(update={"time": time})
 
 
 def _charges(scene: Scene) -> str:
@@ -73,13 +68,15 @@ def _charges(scene: Scene) -> str:
 def _objects(scene: Scene, built: Built, centres: NDArray[np.float64], mass: NDArray[np.float64]) -> str:
     rows: list[tuple[Cell, ...]] = []
     start = 0
-    for obj, group in zip(scene.objects, built.sets, strict=True):
+    for obj, group in zip([*scene.objects, *built.windows], built.standing, strict=True):
         own = slice(start, start := start + len(group))
+        if not len(group):
+            continue
         middle = np.average(centres[own], axis=0, weights=mass[own])
-        anchored = "yes" if obj.anchored else "no"
-        rows.append(
-            (group.name, obj.kind, len(group), float(mass[own].sum()), _point(middle.tolist()), anchored)
-        )
+        frame = group.name != obj.name
+        anchored = "yes" if obj.anchored or frame else "no"
+        kind = "frame" if frame else obj.kind
+        rows.append((group.name, kind, len(group), float(mass[own].sum()), _point(middle.tolist()), anchored))
     return table(_OBJECTS, rows)
 
 
@@ -88,10 +85,13 @@ def _blast(
 ) -> str:
     rows: list[tuple[Cell, ...]] = []
     start = 0
-    for group in built.sets:
+    meshes = [mesh for group in built.standing for mesh in group.meshes]
+    for group in built.standing:
         own = range(start, start := start + len(group))
+        if not len(group):
+            continue
         for number, charge in enumerate(scene.charges):
-            distance = min(_distance(charge, built, centres[body], orientations[body], body) for body in own)
+            distance = min(_distance(charge, meshes[body], centres[body], orientations[body]) for body in own)
             at = _blast_at(scene, charge, distance)
             rows.append(
                 (
@@ -108,12 +108,12 @@ def _blast(
 
 
 def _distance(
-    charge: Charge, built: Built, centre: NDArray[np.float64], orientation: NDArray[np.float64], body: int
+    charge: Charge, mesh: PieceMesh, centre: NDArray[np.float64], orientation: NDArray[np.float64]
 ) -> float:
     """From a charge to the box around a body [m]; bricks and blocks are that box."""
     w, x, y, z = orientation
     own = rotate((w, -x, -y, -z), np.asarray(charge.position) - centre)
-    points = built.meshes[body].points
+    points = mesh.points
     return float(np.linalg.norm(own - np.clip(own, points.min(axis=0), points.max(axis=0))))
 
 

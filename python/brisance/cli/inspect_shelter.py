@@ -39,8 +39,9 @@ def draw_map(path: Path, changes: list[str], output: Path) -> str:
         raise InputError(f"{path}: {error}") from error
     _write(output, scene, built, seen, shares)
     sheltered = sum(int((share < 1).sum()) for share in shares)
+    pieces = count(sum(map(len, built.standing)), "piece")
     return (
-        f"{output}: {count(len(scene.charges), 'charge')}, {count(len(built.names), 'piece')}, resolution "
+        f"{output}: {count(len(scene.charges), 'charge')}, {pieces}, resolution "
         f"{scene.occlusion.resolution}; sheltered in part or in full: {sheltered}"
     )
 
@@ -91,7 +92,7 @@ def _mark_hidden(axes: Axes, scene: Scene, built: Built, charge: int, share: NDA
     hidden = np.flatnonzero(share < 1.0)
     if not len(hidden):
         return
-    middles = built.engine.middles() - np.asarray(scene.charges[charge].position)
+    middles = built.engine.standing()["centre_m"] - np.asarray(scene.charges[charge].position)
     pixels = _engine.sphere_pixels(directions=middles[hidden], resolution=scene.occlusion.resolution)
     places = _engine.unfolded_sphere(resolution=scene.occlusion.resolution)[pixels].mean(axis=1)
     colours = [style.CYCLE[group % len(style.CYCLE)] for group in _source(built)[hidden]]
@@ -101,7 +102,7 @@ def _mark_hidden(axes: Axes, scene: Scene, built: Built, charge: int, share: NDA
 
 def _source(built: Built) -> NDArray[np.intp]:
     """Number of the object that each piece comes from."""
-    return np.repeat(np.arange(len(built.sets)), [len(group) for group in built.sets])
+    return np.repeat(np.arange(len(built.standing)), [len(group) for group in built.standing])
 
 
 def _colours(
@@ -128,10 +129,12 @@ def _labels(
     built: Built, bodies: NDArray[np.int64], source: NDArray[np.intp], share: NDArray[np.float64]
 ) -> list[tuple[int, str]]:
     """The objects on most pixels first, each with the share of the load that comes through to it."""
-    pixels = np.bincount(source[bodies[bodies >= 0]], minlength=len(built.sets))
+    pixels = np.bincount(source[bodies[bodies >= 0]], minlength=len(built.standing))
     labels = []
     for group in np.argsort(-pixels, kind="stable")[:MOST_NAMED].tolist():
         own = share[source == group]
+        if not len(own):
+            continue
         through = f"{own.min():.2f}" if np.ptp(own) < 0.005 else f"{own.min():.2f} to {own.max():.2f}"
-        labels.append((group, f"{built.sets[group].name}: f = {through}"))
+        labels.append((group, f"{built.standing[group].name}: f = {through}"))
     return labels

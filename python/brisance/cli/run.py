@@ -9,7 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from brisance.model import Scene
-    from brisance.result import Result
+    from brisance.result import Pane, Result
 
 MANY_POSES = 1_000_000
 """Frames times pieces from which on writing takes long enough to be announced."""
@@ -78,6 +78,23 @@ def first_frames(scene: Scene, frames: int) -> Scene:
     return scene.model_copy(update={"time": scene.time.model_copy(update={"duration": duration})})
 
 
+def _fate(pane: Pane) -> str:
+    """What became of a pane, in a line."""
+    from brisance.cli.table import count
+
+    pieces = count(pane.stop - pane.start, "piece")
+    if pane.fate == "holds":
+        return (
+            f"{pane.name} holds: {pane.peak_stress_pa / 1e6:.1f} MPa at most, and it can take "
+            f"{pane.strength_pa / 1e6:.1f} MPa"
+        )
+    load = f"under {pane.peak_pressure_pa / 1e3:.1f} kPa"
+    if pane.fate == "in pieces":
+        return f"{pane.name} is in {pieces}, thrown {load}"
+    stay = f", of which {pane.staying:,} stay" if pane.staying else ""
+    return f"{pane.name} breaks {load} after {1e3 * (pane.failure_time_s or 0.0):.2f} ms into {pieces}{stay}"
+
+
 def summary(result: Result, *, output: Path | None, report: Path | None) -> str:
     """What happened, in a few lines."""
     import numpy as np
@@ -101,6 +118,7 @@ def summary(result: Result, *, output: Path | None, report: Path | None) -> str:
         lines.append(f"fastest piece: {bodies.names[fastest]} at {bodies.launch_speed_m_s[fastest]:.2f} m/s")
     elif len(bodies):
         lines.append("the blast reaches no piece within these frames")
+    lines += [_fate(pane) for pane in result.panes]
     lines += [f"warning: {warning}" for warning in result.warnings]
     lines += [
         f"{what}: {path}" for what, path in (("animation", output), ("report", report)) if path is not None

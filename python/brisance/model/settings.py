@@ -20,7 +20,7 @@ class Time(Model):
     longest: Positive = Field(
         default=30.0,
         le=1e9,
-        description='With duration = "rest", the run ends at the latest then [s], above 0 to 1e9; default 30.',
+        description='When a run with duration = "rest" ends at the latest [s], above 0 to 1e9; default 30.',
     )
     frame_rate: Positive = Field(
         default=60.0,

@@ -72,7 +72,8 @@ class Window(SceneObject):
     facade: NotNegative | None = Field(
         default=None,
         description="How far the wall around the pane goes on from its border [m], 0 or more: the reflected "
-        "pressure is relieved from there. Left out: 3 with a frame, 0 without. More throws harder. Not drawn.",
+        "pressure is relieved from there. Left out: 3 with a frame, 0 without. More throws harder. It is not "
+        "drawn.",
     )
     drag_coefficient: NotNegative = Field(
         default=1.17,

@@ -144,7 +144,10 @@ class _Bar:
 
 
 def _bars(glazed: Glazing) -> list[_Bar]:
-    """A bar along each side of the outline. At square corners each runs to the outside and the next butts on it."""
+    """A bar along each side of the outline.
+
+    At square corners each runs to the outside and the next butts on it.
+    """
     window, ring = glazed.window, glazed.rings[0]
     beyond, depth = BAR_FACE, window.thickness + BAR_DEPTH
     bars = []
@@ -195,7 +198,10 @@ def _turned(turn: Array, angle: float) -> tuple[float, float, float, float]:
 
 
 def pane_pieces(window: Window, pane: _engine.Pane, *, name: str) -> PieceSet:
-    """The pieces of a window's pane after a run, all of it in one where it held. They are in the engine already."""
+    """The pieces of a window's pane after a run, all of it in one where it held.
+
+    The engine has them already.
+    """
     meshes = piece_meshes(pane.pattern, pane.pieces)
     return PieceSet(
         name=name,
@@ -233,14 +239,12 @@ def whole_mesh(rings: list[Array], thickness: float) -> PieceMesh:
 def _cells(rings: list[Array]) -> tuple[Array, list[list[int]]]:
     """Corners (n, 2) [m] and counter-clockwise cells that fill a pane."""
     low, size = rings[0].min(axis=0), np.ptp(rings[0], axis=0)
-    box = np.array([low, low + [size[0], 0], low + size, low + [0, size[1]]])
+    box = low + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * size
     if len(rings) > 1 or len(rings[0]) != 4 or not np.allclose(rings[0], box):
         # Any partition will do; the dice of tempered glass are one of any outline.
         pattern = _engine.fracture(
             outline=rings,
-            recipe=recipe(
-                WindowPattern(pieces=200), glass="tempered", seeds=np.empty((0, 2)), seed=1
-            ),
+            recipe=recipe(WindowPattern(pieces=200), glass="tempered", seeds=np.empty((0, 2)), seed=1),
         )
         ends = np.cumsum(pattern.ring_sizes)
         cells = np.split(pattern.ring_vertices.astype(int), ends[:-1])

@@ -64,9 +64,10 @@ LOOKS = {
     "concrete": Look(
         ((0.30, 0.29, 0.27), (0.38, 0.37, 0.35)),
         stain=(0.21, 0.20, 0.185),
-        stained=0.5,
+        stained=0.35,
         roughness=0.9,
         bump=0.0006,
+        stretch=(0.3, 0.3, 0.3),
     ),
     "stone": Look(
         ((0.21, 0.19, 0.165), (0.32, 0.30, 0.265), (0.25, 0.25, 0.245)),
@@ -140,8 +141,8 @@ def _solid(material: Any, look: Look, noise: Any) -> None:
 def _glass(material: Any) -> None:
     """Thin clear glass: what lies behind shows straight through, and only grazing rays are mirrored.
 
-    Rays are not bent, so one that leaves would be mirrored inside again and again and come out black: only the
-    side on which it enters mirrors.
+    Rays are not bent, so one that leaves would be mirrored inside again and again and come out black: only
+    the side on which it enters mirrors.
     """
     nodes = Nodes(material)
     clear = nodes.add("ShaderNodeBsdfTransparent", Color=(0.93, 0.965, 0.95))
@@ -149,11 +150,13 @@ def _glass(material: Any) -> None:
 
 
 def _broken_glass(material: Any) -> None:
-    """A cut through glass: seen along the pane it is green and bright, for it lights up with what runs inside."""
+    """A cut through glass: seen along the pane it is green, and lit up by what runs inside the pane."""
     nodes = Nodes(material)
     through = nodes.add("ShaderNodeBsdfTransparent", Color=(0.74, 0.90, 0.84))
     glow = nodes.add("ShaderNodeBsdfTranslucent", Color=(0.62, 0.84, 0.77))
-    nodes.surface(_mirrored(nodes, nodes.add("ShaderNodeMixShader", Fac=0.5, Shader=through, Shader_001=glow)))
+    nodes.surface(
+        _mirrored(nodes, nodes.add("ShaderNodeMixShader", Fac=0.5, Shader=through, Shader_001=glow))
+    )
 
 
 def _mirrored(nodes: Nodes, body: Any) -> Any:

@@ -141,5 +141,8 @@ impl Growth<'_> {
 
 /// A factor a fork, after `depth` forks: at most sixteen-fold either way, or a tree could fork without end.
 fn deep(factor: f64, depth: u16) -> f64 {
+    if factor == 1.0 {
+        return 1.0;
+    }
     libm::pow(factor, f64::from(depth)).clamp(1.0 / 16.0, 16.0)
 }

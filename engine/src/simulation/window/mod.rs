@@ -8,6 +8,7 @@
 
 mod release;
 mod response;
+mod sheet;
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -28,6 +29,7 @@ use crate::scene::{Body, Flat, Scene, Shape};
 use crate::structure::Plate;
 use crate::window::{Release, Window};
 use response::{Load, Response};
+pub(super) use sheet::Sheet;
 
 /// Panels along the longer side of a whole pane.
 const PANELS: usize = 8;
@@ -58,7 +60,7 @@ pub struct Pane {
     /// What was approximated, in sentences.
     pub warnings: Vec<String>,
     /// When each piece may move and how it moves before.
-    holds: Vec<Hold>,
+    pub holds: Vec<Hold>,
 }
 
 /// Whether a pane broke.

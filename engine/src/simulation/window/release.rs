@@ -3,8 +3,8 @@
 //! - From the moment it fails a pane has no stiffness left: its parts go on as they were bent, pushed by what pushes
 //!   them. A piece goes with it until its outline has closed, and takes along the speed and the turn of its place.
 //! - A piece that reaches into the rebate of a frame then turns about the edge of the rebate like a door, pushed by the
-//!   mean load on the pane. Once its centre has come out by as much as the rebate holds it is free; where the load is
-//!   over before, or where its centre lies in the rebate, it stays: a splinter in the frame.
+//!   mean load on the pane. Once its centre has come out by as much as the rebate holds, or it has turned by a radian, it
+//!   is free; where the load is over before, or where its centre lies in the rebate, it stays: a splinter in the frame.
 //! - On an interlayer nothing comes free. The pane goes on until it has stopped, and stays as far out as that: the
 //!   interlayer stretches, it does not spring back. That is a look, not a model of the interlayer.
 
@@ -19,6 +19,8 @@ use crate::geometry::PlaneMoments;
 use crate::structure::Plate;
 use crate::window::Window;
 
+/// A piece in the rebate is free once it has turned so far [rad].
+const OPEN: f64 = 1.0;
 /// Times at which the load on pieces in the rebate is looked at.
 const LOOKS: usize = 400;
 
@@ -161,8 +163,8 @@ impl Rebate<'_> {
         nearest.expect("an outline has sides")
     }
 
-    /// Lets a piece turn about the edge of the rebate from when its outline has closed, with its centre moving at
-    /// `speed` [m/s] then.
+    /// Lets a piece turn about the edge of the rebate from when its outline has closed, its centre having moved at `speed`
+    /// [m/s] until then. The edge takes what of that does not turn the piece about it.
     fn keep(&self, hold: &mut Hold, moments: &PlaneMoments, speed: f64) {
         hold.until = f64::INFINITY;
         let (foot, depth) = self.foot(moments.centroid);
@@ -178,24 +180,26 @@ impl Rebate<'_> {
             + moments.yy * inward.y * inward.y)
             / moments.area;
         let share = arm * arm / (arm * arm + spread);
+        let speed = share * speed;
+        let far_enough = self.bite.min(OPEN * arm);
         let (mut end, mut way, mut rate) = (hold.closed, 0.0, speed);
         let [velocity, start_way] = self.pushes.at(hold.closed);
         let last = self.pushes.start + self.pushes.step * LOOKS as f64;
-        while way < self.bite && end < last {
+        while way < far_enough && end < last {
             let next = (end + self.pushes.step).min(last);
             let since = next - hold.closed;
             let [v, w] = self.pushes.at(next);
             let further = speed * since + share * (w - start_way - velocity * since);
             let faster = speed + share * (v - velocity);
-            if further >= self.bite {
-                let part = (self.bite - way) / (further - way);
+            if further >= far_enough {
+                let part = (far_enough - way) / (further - way);
                 (end, rate) = (end + (next - end) * part, rate + (faster - rate) * part);
-                way = self.bite;
+                way = far_enough;
             } else {
                 (end, way, rate) = (next, further.max(0.0), faster);
             }
         }
-        let free = way >= self.bite;
+        let free = way >= far_enough;
         let world = |v: DVec2| self.window.orientation * v.extend(0.0);
         let direction = hold.normal * self.outward;
         hold.swing = Some(Swing {

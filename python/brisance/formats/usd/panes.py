@@ -1,8 +1,8 @@
 """Whole panes: what is seen of a window until it breaks.
 
-A pane is in pieces from the first frame on as far as the engine is concerned, and its cracks would show. So the
-whole pane is a Mesh of its own beside them, which bends as the pane does; it is seen until the pane breaks, and
-the pieces from then on.
+A pane is in pieces from the first frame on as far as the engine is concerned, and its cracks would show.
+So the whole pane is a Mesh of its own beside them, which bends as the pane does; it is seen until the pane
+breaks, and the pieces from then on.
 """
 
 from __future__ import annotations
