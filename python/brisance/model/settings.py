@@ -12,7 +12,7 @@ from brisance.model.base import Count, Model, Name, NotNegative, Number, Positiv
 class Time(Model):
     """How long the scene lasts and how finely it is recorded. `[time]`"""
 
-    duration: Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)] | Literal["rest"] = Field(
+    duration: Annotated[Positive, Field(le=1e9)] | Literal["rest"] = Field(
         default=1.0,
         description="Length of the simulation [s], above 0 to 1e9; default 1. Frames run from 0 to "
         'duration times frame_rate. Or "rest": it ends when all loads are over and every piece rests.',
