@@ -94,5 +94,5 @@ def test_free_flight_comes_to_rest_too() -> None:
 
 
 def test_a_duration_is_a_number_or_rest() -> None:
-    with pytest.raises(InputError, match="time.duration must be a number or 'rest', not 'rst'"):
+    with pytest.raises(InputError, match=r"time\.duration must be a number or 'rest', not 'rst'"):
         br.load(WALL, ['time.duration="rst"'])
