@@ -83,9 +83,9 @@ fn pooled(threads: Option<usize>, work: impl FnOnce() -> PyResult<Recording> + S
 
 fn run(scene: &Scene, most_pieces: usize, watch: &Watch) -> PyResult<Recording> {
     let start = Instant::now();
-    let shelters = Shelters::find(scene).map_err(refused)?;
+    let mut shelters = Shelters::find(scene).map_err(refused)?;
     let occlusion = start.elapsed();
-    let panes = Panes::find(scene, &shelters, most_pieces, &mut || watch.goes_on()).map_err(refused)?;
+    let panes = Panes::find(scene, &mut shelters, most_pieces, &mut || watch.goes_on()).map_err(refused)?;
     let fracture = start.elapsed() - occlusion;
     let simulation =
         Simulation::prepare_broken(scene, shelters, &panes, &mut || watch.goes_on()).map_err(refused)?;

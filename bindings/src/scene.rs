@@ -152,8 +152,9 @@ impl Scene {
         Ok(())
     }
 
-    /// Adds n boxes: sizes (n, 3), positions (n, 3), orientations (n, 4) w first, masses (n,), buried faces (n, 6).
-    /// `mortar` binds those of an assembly: tensile and shear strength [Pa] and the width of the joints [m].
+    /// Adds n boxes and returns the number of their assembly, if they are one: sizes (n, 3), positions (n, 3),
+    /// orientations (n, 4) w first, masses (n,), buried faces (n, 6). `mortar` binds those of an assembly: tensile and
+    /// shear strength [Pa] and the width of the joints [m].
     #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, occludes, can_rotate,
         friction, drag_coefficient, lift_coefficient, mortar=None))]
     #[allow(clippy::too_many_arguments)]
@@ -172,7 +173,7 @@ impl Scene {
         drag_coefficient: f64,
         lift_coefficient: Option<f64>,
         mortar: Option<(f64, f64, f64)>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Option<u32>> {
         let sizes = vectors(&size, "size")?;
         let positions = vectors(&position, "position")?;
         let orientations = quaternions(&orientation, "orientation")?;
@@ -207,7 +208,7 @@ impl Scene {
                 hold: None,
             });
         }
-        Ok(())
+        Ok(group)
     }
 
     /// Adds one body with the shape of a closed mesh: vertices (v, 3) in its own frame, triangles (t, 3).
@@ -247,10 +248,10 @@ impl Scene {
     }
 
     /// Adds a pane. `outline` is a list of rings (n, 2) in its own frame [m]; `recipe` says how it breaks, and where it
-    /// gives neither `pieces` nor `critical_length` the load does. `framed`: it stands together with the boxes added
-    /// last.
+    /// gives neither `pieces` nor `critical_length` the load does. `assembly`: the number of what it stands together
+    /// with; left out, it stands alone.
     #[pyo3(signature = (*, outline, thickness, position, orientation, strength, may_break, recipe, release, bite,
-        facade, framed, occludes, can_rotate, friction, drag_coefficient, lift_coefficient))]
+        facade, assembly, occludes, can_rotate, friction, drag_coefficient, lift_coefficient))]
     #[allow(clippy::too_many_arguments)]
     fn add_window(
         &mut self,
@@ -264,7 +265,7 @@ impl Scene {
         release: &str,
         bite: Option<f64>,
         facade: f64,
-        framed: bool,
+        assembly: Option<u32>,
         occludes: bool,
         can_rotate: bool,
         friction: f64,
@@ -273,9 +274,8 @@ impl Scene {
     ) -> PyResult<()> {
         let releases = [("as it cracks", Release::AsItCracks), ("all at once", Release::AllAtOnce)];
         let (recipe, fine) = recipe.into_engine()?;
-        if !framed {
-            self.assemblies += 1;
-        }
+        let assembly = assembly.unwrap_or(self.assemblies);
+        self.assemblies = self.assemblies.max(assembly + 1);
         let window = Window {
             outline: polygon(&outline)?,
             thickness,
@@ -289,7 +289,7 @@ impl Scene {
             release: crate::blast::choose("release", release, &releases)?,
             bite,
             facade,
-            assembly: Some(self.assemblies - 1),
+            assembly: Some(assembly),
             occludes,
             can_rotate,
             friction,

@@ -122,7 +122,7 @@ pub struct Body {
     /// Lift coefficient C_L; left out, it equals C_D for a plate-like piece and is 0 for a chunky one.
     pub lift_coefficient: Option<f64>,
     /// How far a wall without an opening goes on beyond the outline of its assembly [m]: by so much the relief of
-    /// reflected pressure has farther to come ([`Clearing::Assembly`]).
+    /// reflected pressure has farther to come ([`Clearing::Assembly`]) while it is in its place.
     pub surround: f64,
     /// What holds it before it may move; `None`: only what it stands on.
     pub hold: Option<Hold>,

@@ -82,6 +82,8 @@ enum Phase {
 /// What all bodies share during a step.
 struct World {
     ground: Option<Ground>,
+    /// Art direction: multiplies the turning that a piece takes along from its pane.
+    rotation: f64,
     air: Air,
     /// Instructions the processor has.
     level: Level,
@@ -122,8 +124,8 @@ impl Simulation {
     /// What [`Scene::validate`] refuses, curves that cannot be used, and meshes without volume.
     pub fn prepare(scene: &Scene) -> Result<Self> {
         let go_on = &mut || ControlFlow::Continue(());
-        let shelters = Shelters::find(scene)?;
-        let panes = Panes::find(scene, &shelters, usize::MAX, go_on)?;
+        let mut shelters = Shelters::find(scene)?;
+        let panes = Panes::find(scene, &mut shelters, usize::MAX, go_on)?;
         Self::prepare_broken(scene, shelters, &panes, go_on)
     }
 
@@ -205,6 +207,7 @@ impl Simulation {
             later: Later::new(scene, fields, shelters.clone()),
             world: World {
                 ground: scene.ground,
+                rotation: scene.dynamics.rotation_factor,
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
                 level: Level::new(),
             },
@@ -448,8 +451,7 @@ impl World {
     /// A step of a piece that is held, to its end or until it is free and on from there.
     fn hold(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
         let (hold, rest) = &**life.hold.as_ref().expect("it is held");
-        // What is in pieces already goes when the front comes.
-        let until = hold.until.max(life.queue.start);
+        let until = hold.until;
         let end = until.clamp(t0, t1);
         let (impulse, _) = life.queue.take(t0, end, false);
         let received = body.world_from_principal * impulse;
@@ -459,6 +461,7 @@ impl World {
         if until > t1 {
             return Concern::Nothing;
         }
+        body.angular_momentum *= self.rotation;
         life.facts.held_back -= body.velocity / body.inverse_mass;
         life.facts.free_time = until;
         life.hold = None;
@@ -547,7 +550,10 @@ impl Life {
             extent,
             ground_friction: on_ground,
             sheet,
-            hold: hold.map(|hold| {
+            hold: hold.map(|mut hold| {
+                if hold.until == f64::NEG_INFINITY {
+                    (hold.closed, hold.until) = (target.facts.arrival_time, target.facts.arrival_time);
+                }
                 let rest = (target.body.position, target.body.world_from_principal);
                 Box::new((hold, rest))
             }),
@@ -560,7 +566,7 @@ impl Life {
 
     /// Whether anything happens to a held piece between two times.
     fn is_stirred(&self, t0: f64, t1: f64) -> bool {
-        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until.max(self.queue.start) <= t1;
+        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until <= t1;
         self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
     }
 
@@ -570,6 +576,8 @@ impl Life {
         self.facts.peak_overpressure = self.peaks.iter().map(|p| p.overpressure).fold(0.0, f64::max);
         self.facts.peak_load = self.peaks.iter().map(|p| p.load).fold(0.0, f64::max);
         self.queue.replace(shot);
+        // It was aimed at the body as it lies now, not as it lay in its pane.
+        self.sheet = None;
         self.launched = false;
     }
 

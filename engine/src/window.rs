@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Error, Result, not_negative, positive};
 use crate::fracture::{Recipe, outline};
 use crate::geometry::Polygon;
 use crate::material::Material;
@@ -35,7 +35,8 @@ pub struct Window {
     pub bite: Option<f64>,
     /// How far the wall around it goes on from its border [m]: from there the relief comes that clears it.
     pub facade: f64,
-    /// What it stands together with; see [`Body`](crate::scene::Body).
+    /// What it stands together with, itself at least: without it `facade` does not count. See
+    /// [`Body`](crate::scene::Body).
     pub assembly: Option<u32>,
     /// Whether it shelters what is behind it.
     pub occludes: bool,
@@ -76,7 +77,7 @@ impl Window {
         not_negative("friction", self.friction)?;
         not_negative("drag coefficient", self.drag_coefficient)?;
         if let Some(lift) = self.lift_coefficient {
-            finite("lift coefficient", lift)?;
+            not_negative("lift coefficient", lift)?;
         }
         if !self.position.is_finite() || !self.orientation.is_finite() || !self.orientation.is_normalized() {
             return Err(Error::Malformed("a window's position and unit quaternion must be finite".into()));

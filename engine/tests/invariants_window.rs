@@ -4,10 +4,11 @@ mod glazed;
 
 use brisance_engine::dynamics::{Bowing, Hold, Swing};
 use brisance_engine::fracture::Glass;
+use brisance_engine::loading::LoadingMode;
 use brisance_engine::simulation::Fate;
 use brisance_engine::window::Release;
 use glam::{DQuat, DVec3};
-use glazed::{run, scene, window};
+use glazed::{run, scene, wall, window};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -18,8 +19,8 @@ fn glass() -> impl Strategy<Value = Glass> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
-    /// No mass is lost, no number is lost, nothing is free before its pane has failed or the front has come, and what is
-    /// held back is never more than what was received.
+    /// No mass is lost, no number is lost, nothing is free before its pane has failed or the front has come, and all that
+    /// may go goes: under one charge or two, from any side, in either mode, behind a block or not.
     #[test]
     fn nothing_is_lost(
         (width, height) in (0.05f64..3.0, 0.05f64..3.0),
@@ -30,6 +31,10 @@ proptest! {
         bite in prop::option::of(0.0f64..0.02),
         at_once in any::<bool>(),
         seed in any::<u64>(),
+        turn in (-1.0f64..1.0, -3.0f64..3.0, -1.0f64..1.0),
+        surface in any::<bool>(),
+        later in prop::option::of(0.0f64..0.2),
+        block in any::<bool>(),
     ) {
         let mut window = window(width, height, thickness, pieces);
         window.recipe.glass = kind;
@@ -41,22 +46,41 @@ proptest! {
         if at_once {
             window.release = Release::AllAtOnce;
         }
-        let scene = scene(window, mass, distance);
+        window.orientation = DQuat::from_scaled_axis(DVec3::new(turn.0, turn.1, turn.2));
+        let mut scene = scene(window, mass, distance);
+        if surface {
+            scene.loading.mode = LoadingMode::Surface;
+        }
+        if let Some(after) = later {
+            let mut second = scene.charges[0].clone();
+            (second.time, second.position) = (after, DVec3::new(distance, 0.0, 0.3));
+            scene.charges.push(second);
+        }
+        if block {
+            let mut block = wall::block(DVec3::new(2.0, 6.0, 0.2), DVec3::new(-1.0, 0.0, -4.0), 900.0);
+            block.anchored = true;
+            scene.bodies.push(block);
+        }
         let (panes, recording) = run(&scene);
         let pane = &panes.panes[0];
         let whole = width * height * thickness * 2500.0;
-        let sum: f64 = recording.facts.iter().map(|f| f.mass).sum();
+        let own = &recording.facts[scene.bodies.len()..];
+        let sum: f64 = own.iter().map(|f| f.mass).sum();
         prop_assert!((sum / whole - 1.0).abs() < 1e-9);
         prop_assert!(recording.positions.iter().all(|p| p.is_finite()));
         prop_assert!(recording.orientations.iter().all(|q| (q.length() - 1.0).abs() < 1e-5));
         let earliest = match pane.fate {
             Fate::Holds => f64::INFINITY,
             Fate::Fails { time, .. } => time,
-            Fate::InPieces => recording.facts.iter().map(|f| f.arrival_time).fold(f64::INFINITY, f64::min),
+            Fate::InPieces => own.iter().map(|f| f.arrival_time).fold(f64::INFINITY, f64::min),
         };
-        for facts in &recording.facts {
+        let end = *recording.times.last().unwrap();
+        for (facts, hold) in own.iter().zip(&pane.holds) {
             prop_assert!(facts.free_time.is_nan() || facts.free_time >= earliest);
             prop_assert!(facts.impulse.is_finite() && facts.held_back.is_finite());
+            // Who may go goes, within the run, sheltered or not.
+            let goes = if hold.until == f64::NEG_INFINITY { facts.arrival_time } else { hold.until };
+            prop_assert!(facts.free_time.is_finite() == (goes < end), "{} {}", facts.free_time, goes);
         }
         if pane.fate == Fate::Holds || kind == Glass::Laminated {
             prop_assert_eq!(pane.staying(), pane.pieces.len());
@@ -75,7 +99,8 @@ proptest! {
     ) {
         let step = 1e-3;
         let last = step * (samples.len() - 1) as f64;
-        let bowing = Bowing::new(0.01, step, samples.iter().map(|&(u, v)| [u, v]).collect());
+        let times = (0..).map(|i| 0.01 + step * f64::from(i));
+        let bowing = Bowing::new(times.zip(samples.iter().map(|&(u, v)| [u, v])).collect());
         let closed = 0.01 + 0.5 * last;
         let swing = Swing {
             axis: DVec3::Y,

@@ -231,6 +231,7 @@ fn a_block_shelters_a_pane_behind_it() {
     let mut scene = scene(window(1.0, 1.0, 0.006, 20), 100.0, 30.0);
     let mut beside = scene.windows[0].clone();
     beside.position = DVec3::new(6.0, 0.0, 0.0);
+    beside.assembly = Some(8);
     scene.windows.push(beside);
     let mut car = wall::block(DVec3::new(1.8, 2.0, 1.0), DVec3::new(0.0, 0.0, -3.0), 1200.0);
     car.anchored = true;
@@ -279,8 +280,8 @@ fn an_unbreakable_pane_swings_and_rests() {
 #[test]
 fn more_pieces_than_allowed_are_refused() {
     let scene = scene(window(1.0, 1.0, 0.006, 5000), 500.0, 110.0);
-    let shelters = brisance_engine::simulation::Shelters::find(&scene).unwrap();
-    let refused = brisance_engine::simulation::Panes::find(&scene, &shelters, 1000, &mut || {
+    let mut shelters = brisance_engine::simulation::Shelters::find(&scene).unwrap();
+    let refused = brisance_engine::simulation::Panes::find(&scene, &mut shelters, 1000, &mut || {
         std::ops::ControlFlow::Continue(())
     });
     assert!(refused.unwrap_err().to_string().contains("5000 pieces"));
@@ -319,4 +320,118 @@ fn the_wall_around_a_pane_does_not_shelter_it() {
     }
     walled.bodies.iter_mut().for_each(|body| body.anchored = true);
     assert_eq!(only(&walled).peak_pressure, only(&alone).peak_pressure);
+}
+
+/// A second blast from the same place throws glass that flies away from it, whichever way a piece has turned.
+#[test]
+fn a_later_charge_throws_pieces_away_from_itself() {
+    let mut scene = scene(window(1.0, 1.0, 0.006, 150), 500.0, 110.0);
+    scene.windows[0].drag_coefficient = 1.17;
+    let alone = run(&scene).1;
+    let mut second = scene.charges[0].clone();
+    second.time = 0.1;
+    scene.charges.push(second);
+    let (panes, both) = run(&scene);
+    assert_eq!(both.facts.len(), alone.facts.len());
+    let mut pushed = 0;
+    for ((one, two), hold) in alone.facts.iter().zip(&both.facts).zip(&panes.panes[0].holds) {
+        if hold.until.is_finite() {
+            let gained = two.final_velocity.z - one.final_velocity.z;
+            assert!(gained > -0.05, "{gained}: {one:?} {two:?}");
+            pushed += usize::from(gained > 0.02);
+        }
+    }
+    assert!(pushed > 30, "{pushed}");
+}
+
+/// A block so near that part of the pane gets nothing: those pieces fall as well.
+#[test]
+fn sheltered_pieces_do_not_hang_in_the_air() {
+    for release in [Release::AsItCracks, Release::AllAtOnce] {
+        let mut scene = scene(window(1.0, 1.0, 0.006, 100), 2000.0, 110.0);
+        (scene.windows[0].release, scene.windows[0].strength) = (release, 1e6);
+        scene.windows[0].bite = None;
+        let mut block = wall::block(DVec3::new(3.0, 3.0, 0.2), DVec3::new(-1.5, 0.0, -0.15), 4000.0);
+        block.anchored = true;
+        scene.bodies.push(block);
+        let (_, recording) = run(&scene);
+        let pieces = &recording.facts[1..];
+        assert!(pieces.iter().any(|facts| facts.attenuation == 0.0));
+        assert!(pieces.iter().all(|facts| facts.free_time.is_finite()), "{release:?}");
+        assert!(pieces.iter().all(|facts| facts.final_velocity.y < -0.5));
+    }
+}
+
+/// A pulse that is over long before the rim has turned out of the rebate: it turns on by itself.
+#[test]
+fn the_rim_does_not_stop_where_the_load_ends() {
+    let mut scene = scene(window(1.0, 1.0, 0.006, 100), 1.0, 2.0);
+    scene.time = Time { duration: 0.2, frame_rate: 5000.0, step: None, until_rest: false };
+    let (panes, recording) = run(&scene);
+    let count = recording.facts.len();
+    let speed = |frame: usize, piece: usize| {
+        let at = |frame: usize| recording.positions[frame * count + piece].as_dvec3();
+        at(frame + 1).distance(at(frame)) * 5000.0
+    };
+    for frame in 30..recording.times.len() - 2 {
+        for piece in 0..count {
+            let (before, after) = (speed(frame, piece), speed(frame + 1, piece));
+            let closes = (panes.panes[0].holds[piece].closed * 5000.0 - frame as f64).abs() < 3.0;
+            assert!(before < 1.0 || closes || after > 0.2 * before, "{piece}: {before} to {after} m/s");
+        }
+    }
+}
+
+/// A charge that goes off after the end of the run changes nothing before.
+#[test]
+fn a_charge_after_the_end_changes_nothing() {
+    for glass in [Glass::Annealed, Glass::Laminated] {
+        let mut scene = scene(window(1.0, 1.0, 0.006, 60), 500.0, 110.0);
+        scene.windows[0].recipe.glass = glass;
+        scene.time.step = Some(1e-3);
+        let alone = run(&scene).1;
+        let mut late = Charge::tnt(0.001, DVec3::new(0.0, 0.0, -20.0));
+        late.time = 5.0;
+        scene.charges.push(late);
+        let both = run(&scene).1;
+        for (a, b) in alone.positions.iter().zip(&both.positions) {
+            assert!(a.distance(*b) < 1e-3, "{a} {b}");
+        }
+    }
+}
+
+/// A pane that breaks does not keep the blast from what is behind it; one that holds does.
+#[test]
+fn the_blast_goes_through_what_it_has_broken() {
+    let mut scene = scene(window(3.0, 3.0, 0.006, 30), 5.0, 4.0);
+    scene.bodies.push(wall::block(DVec3::splat(0.3), DVec3::new(0.0, 0.0, 0.8), 20.0));
+    let block = |scene: &Scene| run(scene).1.facts[0];
+    assert_eq!(block(&scene).attenuation, 1.0);
+    scene.windows[0].may_break = false;
+    assert!(block(&scene).attenuation < 0.1);
+    // Panes one behind the other: the first lets through what breaks the second.
+    scene.windows[0].may_break = true;
+    let mut second = scene.windows[0].clone();
+    second.position.z = 0.4;
+    second.assembly = Some(8);
+    scene.windows.push(second);
+    assert!(panes(&scene).panes.iter().all(|pane| matches!(pane.fate, Fate::Fails { .. })));
+}
+
+#[test]
+fn art_direction_of_rotation_reaches_what_the_pane_gives() {
+    let mut scene = scene(window(1.0, 1.0, 0.006, 60), 500.0, 110.0);
+    scene.windows[0].bite = None;
+    let turned = |scene: &Scene| {
+        let recording = run(scene).1;
+        let count = recording.facts.len();
+        let last = &recording.orientations[recording.orientations.len() - count..];
+        last.iter().map(|q| 2.0 * f64::from(q.w.abs().min(1.0)).acos()).fold(0.0, f64::max)
+    };
+    assert!(turned(&scene) > 1.0);
+    scene.dynamics.rotation_factor = 0.0;
+    // What it has turned with the bent pane stays.
+    assert!(turned(&scene) < 0.3, "{}", turned(&scene));
+    scene.windows[0].can_rotate = false;
+    assert!(turned(&scene) < 1e-3);
 }

@@ -253,7 +253,7 @@ class Scene:
         drag_coefficient: float,
         lift_coefficient: float | None,
         mortar: tuple[float, float, float] | None = None,
-    ) -> None: ...
+    ) -> int | None: ...
     def add_mesh(
         self,
         *,
@@ -282,7 +282,7 @@ class Scene:
         release: Literal["as it cracks", "all at once"],
         bite: float | None,
         facade: float,
-        framed: bool,
+        assembly: int | None,
         occludes: bool,
         can_rotate: bool,
         friction: float,

@@ -129,7 +129,7 @@ def build(scene: Scene) -> Built:
     panes = [_whole(window, scene) for window in windows]
     warnings = [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)]
     built = Built(engine, sets, windows, warnings, panes)
-    _check_names(built)
+    _check_names(built.standing)
     return built
 
 
@@ -181,10 +181,10 @@ def _check_step(scene: Scene) -> None:
         )
 
 
-def _check_names(built: Built) -> None:
+def _check_names(sets: list[PieceSet]) -> None:
     """Pieces go by name in every output, so no two may share one (a block may be called what a brick is)."""
     owner: dict[str, str] = {}
-    for group in built.sets:
+    for group in sets:
         for name in group.names:
             if name in owner:
                 raise InputError(
@@ -205,6 +205,7 @@ def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
 
 def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
     panes = _panes(built, recording)
+    _check_names([*built.sets, *(group for group, _ in panes)])
     sets = [*(group for group in built.sets if len(group)), *(group for group, _ in panes)]
     sources, start = [], 0
     for group in sets:

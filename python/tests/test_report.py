@@ -85,11 +85,13 @@ def test_the_file_is_strict_json_where_nothing_comes_to_rest(tmp_path: Path) -> 
 
 
 def test_facts_are_the_arrays_of_the_result(wall: br.Result, facts: dict[str, Any]) -> None:
-    for name in BODY_KEYS - {"name", "source", "rest_time_s"}:
+    never = ("rest_time_s", "free_time_s")
+    for name in BODY_KEYS - {"name", "source", *never}:
         column = np.array([body[name] for body in facts["bodies"]])
         np.testing.assert_array_equal(column, getattr(wall.bodies, name))
-    rest = [math.nan if body["rest_time_s"] is None else body["rest_time_s"] for body in facts["bodies"]]
-    np.testing.assert_array_equal(rest, wall.bodies.rest_time_s)
+    for name in never:
+        times = [math.nan if body[name] is None else body[name] for body in facts["bodies"]]
+        np.testing.assert_array_equal(times, getattr(wall.bodies, name))
     assert [body["name"] for body in facts["bodies"]] == list(wall.bodies.names)
     assert {body["source"] for body in facts["bodies"]} == {"wall"}
 

@@ -307,3 +307,21 @@ def test_the_car_shelters_the_pane_behind_it() -> None:
     panes = {pane.name: pane for pane in br.simulate(br.load(SCENES / "shopfront.toml")).panes}
     assert panes["left"].peak_pressure_pa < 0.6 * panes["right"].peak_pressure_pa
     assert (panes["left"].failure_time_s or 0) > (panes["right"].failure_time_s or 1)
+
+
+def test_pieces_never_share_a_name_with_another_body() -> None:
+    block = br.Block(name="window_0_7", size=(0.1, 0.1, 0.1), position=(5, 0, 0), mass=1)
+    clash = scene().model_copy(update={"objects": (block, *scene().objects)})
+    with pytest.raises(InputError, match=r"its piece 'window_0_7' has the name of a piece of window_0_7"):
+        br.simulate(clash)
+
+
+def test_the_summary_says_when_a_pane_breaks_after_the_last_frame(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", str(SCENES / "window.toml"), "--frames", "2"]) == 0
+    assert "after these frames" in capsys.readouterr().out
+
+
+def test_a_point_given_twice_is_refused_in_one_sentence() -> None:
+    window = br.Window(outline=[(0, 0), (0, 0), (1, 0), (1, 1), (0, 1)])
+    with pytest.raises(InputError, match="outline has a point twice in turn"):
+        br.simulate(scene(window))

@@ -9,10 +9,8 @@ use super::RigidBody;
 /// How far a pane bends over time, in units of the deflection that even pressure of 1 Pa gives it [Pa].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Bowing {
-    start: f64,
-    step: f64,
-    /// Amplitude [Pa] and its rate [Pa/s] at `start`, `start + step`, …
-    samples: Vec<[f64; 2]>,
+    /// Times [s], rising, with amplitude [Pa] and its rate [Pa/s] at each.
+    samples: Vec<(f64, [f64; 2])>,
 }
 
 /// How a held piece moves until it is free.
@@ -22,7 +20,7 @@ pub struct Hold {
     pub bowing: Arc<Bowing>,
     /// Deflection of the pane at the piece's centre [m/Pa] along [`normal`](Self::normal).
     pub deflection: f64,
-    /// Rotation vector of the pane there in the world [rad/Pa].
+    /// Slope of the pane there, along the axis in the world about which it turns a piece [1/Pa].
     pub tilt: DVec3,
     /// The pane's own +z in the world.
     pub normal: DVec3,
@@ -30,7 +28,7 @@ pub struct Hold {
     pub closed: f64,
     /// How it turns in the rebate of the frame from then on, where it lies in one.
     pub swing: Option<Swing>,
-    /// When it is free [s]; infinite for one that stays.
+    /// When it is free [s]; infinite for one that stays, minus infinity for one that waits for the front.
     pub until: f64,
 }
 
@@ -61,36 +59,26 @@ pub struct Displacement {
 }
 
 impl Bowing {
-    /// A bowing through samples of amplitude [Pa] and rate [Pa/s], `step` [s] apart from `start` [s] on. Before them the
-    /// pane is flat and still; after them it stays as the last one says, still.
-    pub fn new(start: f64, step: f64, samples: Vec<[f64; 2]>) -> Self {
-        Self { start, step, samples }
+    /// A bowing through samples at rising times [s] of amplitude [Pa] and rate [Pa/s]. Before them the pane is flat and
+    /// still; after them it stays as the last one says, still.
+    pub fn new(samples: Vec<(f64, [f64; 2])>) -> Self {
+        Self { samples }
     }
 
     /// Amplitude [Pa] and rate [Pa/s] at a time [s]: the cubic through the samples and their rates.
     pub fn at(&self, t: f64) -> [f64; 2] {
-        let Some(last) = self.samples.len().checked_sub(1) else { return [0.0; 2] };
-        let along = (t - self.start) / self.step;
-        if along <= 0.0 {
-            return [0.0; 2];
-        }
-        if along >= last as f64 {
-            let [amplitude, rate] = self.samples[last];
-            return [amplitude, if along == last as f64 { rate } else { 0.0 }];
-        }
-        let index = along as usize;
-        let [from, to] = [self.samples[index], self.samples[index + 1]];
-        hermite(from, to, along - index as f64, self.step)
+        let after = self.samples.partition_point(|&(time, _)| time <= t);
+        let Some(&(from, before)) = after.checked_sub(1).map(|i| &self.samples[i]) else { return [0.0; 2] };
+        let Some(&(to, next)) = self.samples.get(after) else {
+            return [before[0], if t == from { before[1] } else { 0.0 }];
+        };
+        hermite(before, next, (t - from) / (to - from), to - from)
     }
 
     /// When the pane begins to move [s], and when it last does.
     pub fn span(&self) -> (f64, f64) {
-        (self.start, self.start + self.step * self.samples.len().saturating_sub(1) as f64)
-    }
-
-    /// The samples of amplitude [Pa] and rate [Pa/s], and when each is [s].
-    pub fn samples(&self) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
-        self.samples.iter().enumerate().map(|(i, &sample)| (self.start + self.step * i as f64, sample))
+        let time = |sample: Option<&(f64, [f64; 2])>| sample.map_or(0.0, |s| s.0);
+        (time(self.samples.first()), time(self.samples.last()))
     }
 }
 
@@ -103,6 +91,11 @@ fn hermite([p, v]: [f64; 2], [q, w]: [f64; 2], s: f64, interval: f64) -> [f64; 2
 }
 
 impl Hold {
+    /// A hold of a piece that does not move until the front comes to it, and then is free.
+    pub fn until_the_front() -> Self {
+        Self::still(f64::NEG_INFINITY)
+    }
+
     /// A hold that only says when a piece is free: it does not move before.
     pub fn still(until: f64) -> Self {
         Self {
@@ -116,7 +109,7 @@ impl Hold {
         }
     }
 
-    /// The rotation vector [rad/Pa] of a pane's frame at a place where its deflection has this slope [1/Pa].
+    /// The [`tilt`](Self::tilt) [1/Pa] of a pane's frame at a place where its deflection has this slope [1/Pa].
     pub fn tilt_of(slope: DVec2, world_from_pane: DQuat) -> DVec3 {
         world_from_pane * DVec3::new(slope.y, -slope.x, 0.0)
     }
@@ -136,11 +129,15 @@ impl Hold {
         if t > self.closed {
             rate = 0.0;
         }
+        // A slope turns by its arc tangent: a steep bulge never turns a piece past edge-on.
+        let slope = self.tilt * amplitude;
+        let steepness = slope.length();
+        let angle = if steepness > 0.0 { libm::atan(steepness) / steepness } else { 1.0 };
         let bowed = Displacement {
             shift: self.normal * (self.deflection * amplitude),
-            turn: DQuat::from_scaled_axis(self.tilt * amplitude),
+            turn: DQuat::from_scaled_axis(slope * angle),
             velocity: self.normal * (self.deflection * rate),
-            spin: self.tilt * rate,
+            spin: self.tilt * (rate / (1.0 + steepness * steepness)),
         };
         self.swing.filter(|_| t > self.closed).map_or(bowed, |swing| swing.on_top(&bowed, self.closed, t))
     }
@@ -149,14 +146,14 @@ impl Hold {
     pub fn place(&self, body: &mut RigidBody, rest: &(DVec3, DQuat), t: f64) {
         let now = self.at(t);
         body.position = rest.0 + now.shift;
-        body.world_from_principal = (now.turn * rest.1).normalize();
         body.velocity = now.velocity;
+        if body.inverse_moments == DVec3::ZERO {
+            // It may not rotate.
+            return;
+        }
+        body.world_from_principal = (now.turn * rest.1).normalize();
         let spin = body.world_from_principal.conjugate() * now.spin;
-        // A body that may not rotate has no inverse moments.
-        body.angular_momentum = DVec3::from_array(core::array::from_fn(|i| {
-            let inverse = body.inverse_moments[i];
-            if inverse > 0.0 { spin[i] / inverse } else { 0.0 }
-        }));
+        body.angular_momentum = spin / body.inverse_moments;
     }
 }
 

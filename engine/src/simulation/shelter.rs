@@ -11,6 +11,7 @@ use crate::geometry::{PieceMeshes, TriangleMesh, Triangulator};
 use crate::loading::{box_panels, flat_panels, mesh_panels};
 use crate::occlusion::{Form, Shelter, Sheltered, Solid, SurfacePoint, first_seen, shelter};
 use crate::scene::{Body, Flat, Scene, Shape};
+use crate::window::Window;
 
 /// Bodies that stand alone are numbered from here among the groups.
 const ALONE: u32 = 1 << 31;
@@ -23,6 +24,8 @@ const ENCLOSED: f64 = 0.9;
 pub struct Shelters {
     /// One a charge; none where shelter is switched off.
     charges: Vec<Sheltered>,
+    /// Of each pane, whether the blast goes through it.
+    open: Vec<bool>,
     /// Bodies before the pieces of panes.
     bodies: usize,
     /// Of each piece of a pane, the whole pane's number among the bodies and the panel of it where the piece is.
@@ -63,6 +66,23 @@ impl Shelters {
             Some((pane, panel)) => self.read(charge, pane, Some(panel)),
             None => self.read(charge, body, None),
         }
+    }
+
+    /// Lets the blast through those panes that are `open`, and through those that were before; whether that changed
+    /// anything.
+    pub(super) fn let_through(&mut self, scene: &Scene, open: impl Iterator<Item = bool>) -> Result<bool> {
+        self.open.resize(scene.windows.len(), false);
+        let now: Vec<bool> = open.zip(&self.open).map(|(now, &before)| now || before).collect();
+        let shelter = |(window, (now, before)): (&Window, (&bool, &bool))| window.occludes && now != before;
+        if !scene.occlusion.enabled || !scene.windows.iter().zip(now.iter().zip(&self.open)).any(shelter) {
+            return Ok(false);
+        }
+        let mut broken = scene.clone();
+        for (window, open) in broken.windows.iter_mut().zip(&now) {
+            window.occludes &= !open;
+        }
+        *self = Self { open: now, ..Self::find(&broken)? };
+        Ok(true)
     }
 
     /// Puts pieces after the bodies, in place of whole panes; see the field.

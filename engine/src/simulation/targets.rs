@@ -138,14 +138,33 @@ impl LoadQueue {
         begun.map(|load| load.history.impulse(t0, t1) * load.push.dot(axis) * weight(load.panel)).sum()
     }
 
-    /// The highest load of each charge on the whole body along an axis of its own, if all its panels had their highest
-    /// load at once [N].
+    /// The highest load of any charge on one side of the body along an axis of its own, if all the panels there had
+    /// their highest load at once [N].
     pub fn highest(&self, axis: DVec3) -> f64 {
-        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        let mut sums: BTreeMap<(usize, bool), f64> = BTreeMap::new();
         for load in &self.panels {
-            *sums.entry(load.charge).or_default() += load.history.peak() * load.push.dot(axis).abs();
+            let along = load.push.dot(axis);
+            *sums.entry((load.charge, along > 0.0)).or_default() += load.history.peak() * along.abs();
         }
         sums.into_values().fold(0.0, f64::max)
+    }
+
+    /// When the last panel load before a time [s] came [s]; the first one if none has come yet.
+    pub fn latest_arrival(&self, t: f64) -> f64 {
+        let come = self.panels.partition_point(|load| load.history.arrival() <= t);
+        self.panels.get(come.saturating_sub(1)).map_or(t, |load| load.history.arrival())
+    }
+
+    /// When the panel loads that act at a time [s] end, and those that come before they do [s].
+    pub fn end_of(&self, t: f64) -> f64 {
+        let mut end = t;
+        for load in &self.panels {
+            if load.history.arrival() > end {
+                break;
+            }
+            end = end.max(load.history.end());
+        }
+        end
     }
 
     /// Whether any load acts between two times.
@@ -221,7 +240,7 @@ pub(super) fn aim(
 }
 
 /// Refuses loads that begin before the scene does.
-fn in_time(scene: &Scene, targets: &[Target]) -> Result<()> {
+pub(super) fn in_time(scene: &Scene, targets: &[Target]) -> Result<()> {
     let firsts = targets.iter().filter_map(|target| target.queue.panels.first());
     let first = firsts.min_by(|a, b| a.history.arrival().total_cmp(&b.history.arrival()));
     let Some(early) = first.filter(|load| load.history.arrival() < 0.0) else { return Ok(()) };
@@ -493,6 +512,7 @@ fn shot(
         geometry,
         half_width: 0.5 * seen.least_width(),
         around,
+        surround: if assembly.is_some() { scene.bodies[index].surround } else { 0.0 },
     };
     let shelter = shelters.body(charge, index);
     let centre = aim.at(middle, &shelter);
@@ -533,6 +553,8 @@ struct Aim<'a> {
     /// Half the smaller extent of the piece as the charge sees it [m].
     half_width: f64,
     around: &'a Outline,
+    /// How far a wall around that goes on [m].
+    surround: f64,
 }
 
 impl Aim<'_> {
@@ -587,7 +609,7 @@ impl Aim<'_> {
                 continue;
             }
             let clearing_length =
-                self.scene.loading.clearing.length(centre, self.half_width, self.around, self.body.surround);
+                self.scene.loading.clearing.length(centre, self.half_width, self.around, self.surround);
             let face = match (faces, buried) {
                 (true, _) => Face::Front { clearing_length },
                 (false, false) => Face::Rear { clearing_length },

@@ -4,7 +4,7 @@
 //! Small deflections (Kirchhoff): a bending stiffness `D = E h³ / 12 (1 − ν²)`, and edges that are held but may turn, as
 //! glass in putty or a gasket may. The deflection under even pressure comes from two membranes (Marcus 1932),
 //! `∇²m = −p` and `∇²w = −m/D`, both 0 on the border; for straight edges that is the exact plate equation, for curved
-//! ones the limit of a polygon of many sides. Both are solved on a grid of [`CELLS`] cells along the longer side, with
+//! ones the limit of a polygon of many sides. The border of a hole counts as held too. Both are solved on a grid of [`CELLS`] cells along the longer side, with
 //! the true distance to the border in the outermost ones (Shortley and Weller 1938).
 //!
 //! In time the pane is one mass on one spring: it keeps the shape that even pressure gives it. Its frequency is then
@@ -16,12 +16,15 @@
 
 use glam::DVec2;
 
-use crate::error::{Result, positive};
+use crate::error::{Error, Result, positive};
 use crate::geometry::Polygon;
 use crate::material::Material;
 
 /// Cells of the grid along the longer side of the pane.
 pub const CELLS: usize = 40;
+
+/// Most cells along the longer side, for a narrow pane that lies aslant.
+const FINEST: f64 = 400.0;
 
 /// Poisson's ratio of a material that none is known of.
 const POISSON: f64 = 0.22;
@@ -37,6 +40,7 @@ pub struct Plate {
     strongest: f64,
     frequency: f64,
     mass_per_area: f64,
+    stiffness: f64,
 }
 
 /// Nodes in rows from the lower left corner of a pane's bounding box.
@@ -62,6 +66,9 @@ impl Plate {
         let poisson = material.poisson_ratio.unwrap_or(POISSON);
         let stiffness = material.young_modulus * thickness.powi(3) / (12.0 * (1.0 - poisson * poisson));
         let grid = Grid::over(outline);
+        if grid.inside.is_empty() {
+            return Err(Error::Malformed("the pane is too narrow for its length to be bent".into()));
+        }
         let nodes = grid.columns * grid.rows;
         let moment = grid.membrane(&vec![1.0; nodes]);
         let mut deflection = grid.membrane(&moment);
@@ -84,6 +91,7 @@ impl Plate {
             deflection,
             stress,
             mass_per_area,
+            stiffness,
         })
     }
 
@@ -95,6 +103,11 @@ impl Plate {
     /// Mass of a square metre [kg/m²].
     pub fn mass_per_area(&self) -> f64 {
         self.mass_per_area
+    }
+
+    /// Bending stiffness D [N m].
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
     }
 
     /// The greatest stress anywhere on its faces under a pressure of 1 Pa [Pa/Pa].
@@ -137,7 +150,9 @@ impl Grid {
         let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
         let size = high - low;
-        let cell = size.max_element() / CELLS as f64;
+        // A pane that is narrow and lies aslant takes finer cells.
+        let width = 2.0 * outline.area() / outline.sides().map(|(a, b)| a.distance(b)).sum::<f64>();
+        let cell = (size.max_element() / CELLS as f64).min(width / 3.0).max(size.max_element() / FINEST);
         // Square cells, but for a rest: a rectangle's border then runs through nodes.
         let count = |length: f64| (libm::rint(length / cell) as usize).max(8);
         let (across, up) = (count(size.x), count(size.y));

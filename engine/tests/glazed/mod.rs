@@ -36,7 +36,7 @@ pub fn window(width: f64, height: f64, thickness: f64, pieces: usize) -> Window 
         release: Release::AsItCracks,
         bite: Some(0.01),
         facade: 1e3,
-        assembly: None,
+        assembly: Some(7),
         occludes: true,
         can_rotate: true,
         friction: 0.6,
@@ -58,15 +58,15 @@ pub fn scene(window: Window, mass: f64, distance: f64) -> Scene {
 
 /// What becomes of the panes of a scene.
 pub fn panes(scene: &Scene) -> Panes {
-    let shelters = Shelters::find(scene).unwrap();
-    Panes::find(scene, &shelters, usize::MAX, &mut || ControlFlow::Continue(())).unwrap()
+    let mut shelters = Shelters::find(scene).unwrap();
+    Panes::find(scene, &mut shelters, usize::MAX, &mut || ControlFlow::Continue(())).unwrap()
 }
 
 /// A whole run.
 pub fn run(scene: &Scene) -> (Panes, Recording) {
     let go_on = &mut || ControlFlow::Continue(());
-    let shelters = Shelters::find(scene).unwrap();
-    let panes = Panes::find(scene, &shelters, usize::MAX, go_on).unwrap();
+    let mut shelters = Shelters::find(scene).unwrap();
+    let panes = Panes::find(scene, &mut shelters, usize::MAX, go_on).unwrap();
     let simulation = Simulation::prepare_broken(scene, shelters, &panes, go_on).unwrap();
     let recording = simulation.run(&mut |_, _| ControlFlow::Continue(())).unwrap();
     (panes, recording)

@@ -78,7 +78,7 @@ def first_frames(scene: Scene, frames: int) -> Scene:
     return scene.model_copy(update={"time": scene.time.model_copy(update={"duration": duration})})
 
 
-def _fate(pane: Pane) -> str:
+def _fate(pane: Pane, *, until: float) -> str:
     """What became of a pane, in a line."""
     from brisance.cli.table import count
 
@@ -91,6 +91,8 @@ def _fate(pane: Pane) -> str:
     load = f"under {pane.peak_pressure_pa / 1e3:.1f} kPa"
     if pane.fate == "in pieces":
         return f"{pane.name} is in {pieces}, thrown {load}"
+    if (pane.failure_time_s or 0.0) > until:
+        return f"{pane.name} breaks {load} after these frames, {1e3 * (pane.failure_time_s or 0.0):.2f} ms in"
     stay = f", of which {pane.staying:,} stay" if pane.staying else ""
     return f"{pane.name} breaks {load} after {1e3 * (pane.failure_time_s or 0.0):.2f} ms into {pieces}{stay}"
 
@@ -118,7 +120,7 @@ def summary(result: Result, *, output: Path | None, report: Path | None) -> str:
         lines.append(f"fastest piece: {bodies.names[fastest]} at {bodies.launch_speed_m_s[fastest]:.2f} m/s")
     elif len(bodies):
         lines.append("the blast reaches no piece within these frames")
-    lines += [_fate(pane) for pane in result.panes]
+    lines += [_fate(pane, until=float(result.times[-1])) for pane in result.panes]
     lines += [f"warning: {warning}" for warning in result.warnings]
     lines += [
         f"{what}: {path}" for what, path in (("animation", output), ("report", report)) if path is not None

@@ -1,7 +1,8 @@
 """The figures and tables of the thesis, recomputed through the engine.
 
-``FIGURES`` holds them by the thesis's own number, in its order. Nothing that they show is typed in: the
-curves and cracks come from the engine, the bricks from the scenes in ``scenes/``.
+``FIGURES`` holds them by the thesis's own number, in its order, and after them by name those that go on where
+the thesis ends. Nothing that they show is typed in: the curves and cracks come from the engine, the bricks
+and windows from the scenes in ``scenes/``.
 """
 
 from __future__ import annotations
@@ -49,6 +50,11 @@ from brisance.figures import (
     figure_6_1,
     figure_6_2,
     figure_6_3,
+    figure_6_4,
+    figure_6_5,
+    figure_6_6,
+    figure_window_fragments,
+    figure_window_plume,
     table_2_1,
 )
 from brisance.figures.figure import Figure
@@ -91,11 +97,16 @@ _MODULES = (
     figure_6_1,
     figure_6_2,
     figure_6_3,
+    figure_6_4,
+    figure_6_5,
+    figure_6_6,
+    figure_window_plume,
+    figure_window_fragments,
     dispersal,
 )
 
 FIGURES: dict[str, Figure[Any]] = {module.FIGURE.name: module.FIGURE for module in _MODULES}
-"""Every figure and table by the thesis's number, in the order of the thesis."""
+"""Every figure and table by the thesis's number, in the order of the thesis, then those by name."""
 
 
 def build(name: str, folder: Path | str, *, size: tuple[int, int] | None = None) -> list[Path]:

@@ -34,7 +34,7 @@ class Figure(Generic[Data]):
     """A figure or table of the thesis, recomputed."""
 
     name: str
-    """The thesis's own number, such as ``"2.7"`` or ``"table-2.1"``."""
+    """The thesis's own number, such as ``"2.7"`` or ``"table-2.1"``; a name where it has no such figure."""
     title: str
     """What it shows, in one line."""
     compute: Callable[[], Data]

@@ -46,25 +46,58 @@ def equally_spaced(frames: int, count: int) -> list[int]:
     return [min(index * step, frames - 1) for index in range(count)]
 
 
-def place_camera(result: Result, frames: list[int], view: View, *, aspect: float) -> CameraPose:
-    """The nearest camera of one direction with every piece in view at all ``frames``."""
+def place_camera(
+    result: Result, frames: list[int], view: View, *, aspect: float, close: bool = False
+) -> CameraPose:
+    """The nearest camera of one direction with every piece in view at all ``frames``.
+
+    Pieces count as spheres around them, or with ``close`` as their boxes, which fits flat ones far better.
+    """
     away = result.positions[0].mean(axis=0, dtype=float) - np.asarray(result.scene.charges[0].position)
+    direction = looking_from(view, away)
+    if close:
+        corners = np.concatenate([box_corners(result, index) for index in frames])
+        return frame(corners, np.zeros(len(corners)), direction, aspect=aspect, fraction=1.0)
     centres = np.asarray(result.positions[frames], dtype=float).reshape(-1, 3)
     radii = np.array([np.linalg.norm(mesh.points, axis=1).max() for mesh in result.meshes], dtype=float)
-    direction = looking_from(view, away)
     return frame(centres, np.tile(radii, len(frames)), direction, aspect=aspect, fraction=1.0)
 
 
+def box_corners(result: Result, index: int) -> Array:
+    """Corners (8 n, 3) of the pieces' boxes at one frame in the world [m]."""
+    ends = np.array(
+        [(mesh.points.min(axis=0), mesh.points.max(axis=0)) for mesh in result.meshes], dtype=float
+    )
+    which = np.array(list(np.ndindex(2, 2, 2)))
+    corners = ends[:, which, np.arange(3)]
+    turned = np.einsum("nij,nkj->nki", _matrices(result, index), corners)
+    return np.asarray((turned + result.positions[index][:, None]).reshape(-1, 3))
+
+
+def _matrices(result: Result, index: int) -> Array:
+    return np.array([matrix_from_quaternion(orientation) for orientation in result.orientations[index]])
+
+
 def draw_frames(
-    picture: Picture, result: Result, frames: list[int], view: View, *, rows: int, captions: bool = True
+    picture: Picture,
+    result: Result,
+    frames: list[int],
+    view: View,
+    *,
+    rows: int,
+    captions: bool = True,
+    close: bool = False,
 ) -> None:
-    """Draw ``frames`` of a result side by side in ``rows``, all seen by the same camera."""
+    """Draw ``frames`` of a result side by side in ``rows``, all seen by the same camera.
+
+    ``close`` is that of :func:`place_camera`.
+    """
     columns = len(frames) // rows
     width, height = picture.get_size_inches() * picture.dpi
     # The heading and the captions take some eighth of the height.
     panel = (int(width / columns), int(0.88 * height / rows))
     panels = picture.subplots(rows, columns, squeeze=False).ravel()
-    camera = place_camera(result, frames, view, aspect=panel[0] / panel[1])
+    camera = place_camera(result, frames, view, aspect=panel[0] / panel[1], close=close)
     for axes, index in zip(panels, frames, strict=True):
         axes.imshow(paint(result, index, camera, size=panel), interpolation="antialiased")
         axes.grid(False)
@@ -108,12 +141,10 @@ def world_triangles(result: Result, index: int) -> list[Array]:
 def triangles(mesh: PieceMesh) -> NDArray[np.int32]:
     """Corners (n, 3) of the fans that a mesh's convex faces are cut into."""
     starts = np.cumsum(mesh.face_counts) - mesh.face_counts
-    fans = [
-        (start, start + corner, start + corner + 1)
-        for start, count in zip(starts, mesh.face_counts, strict=True)
-        for corner in range(1, count - 1)
-    ]
-    return mesh.face_indices[np.array(fans, dtype=np.intp)]
+    each = mesh.face_counts - 2
+    first = np.repeat(starts, each)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(each) - each, each)
+    return np.asarray(mesh.face_indices[np.stack([first, second, second + 1], axis=1)])
 
 
 def lit(result: Result, world: list[Array], camera: CameraPose) -> tuple[Array, Array, NDArray[np.intp]]:

@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 NEAR = 0.05
 """Least distance in front of the camera at which anything is drawn [m]."""
+FEW = 12
+"""Triangles at most so many pixels wide and high are drawn all at once, pixel by pixel of their boxes."""
 
 
 class Raster:
@@ -42,9 +44,12 @@ class Raster:
         ahead = (triangles[:, :, 2] < -NEAR).all(axis=1)
         nearness = -1.0 / np.where(ahead[:, None], triangles[:, :, 2], -1.0)
         places = self._centre + self._pixels * triangles[:, :, :2] * nearness[:, :, None]
-        rows = zip(places[ahead], nearness[ahead], colours[ahead], labels[ahead], strict=True)
-        for place, near, colour, label in rows:
-            self._fill(place, near, colour, label)
+        places, nearness, colours, labels = places[ahead], nearness[ahead], colours[ahead], labels[ahead]
+        low, high = self._boxes(places)
+        few = (high - low <= FEW).all(axis=1)
+        self._fill_many(places[few], nearness[few], colours[few], labels[few])
+        for row in np.flatnonzero(~few):
+            self._fill(places[row], nearness[row], colours[row], labels[row])
 
     def outline(self, strength: float) -> None:
         """Darken by ``strength``, 0 to 1, the pixels at which one piece ends and another, or none, begins."""
@@ -55,6 +60,37 @@ class Raster:
                 step, step.shape[axis], False, axis=axis
             )
         self.colour[edge & (self.label >= 0)] *= 1.0 - strength
+
+    def _boxes(self, places: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """First pixels (n, 2) of the boxes around triangles (n, 3, 2), and those after their last."""
+        size = np.array(self.nearness.shape[::-1])
+        low = np.clip(np.floor(places.min(axis=1)), 0, size).astype(np.intp)
+        return low, np.clip(np.ceil(places.max(axis=1)), 0, size).astype(np.intp)
+
+    def _fill_many(self, places: Array, near: Array, colours: Array, labels: NDArray[np.intp]) -> None:
+        """Draw triangles of a few pixels each: the first pixel of all boxes, then the second, and so on."""
+        low, high = self._boxes(places)
+        wide, tall = (high - low).T
+        (ax, bx, cx), (ay, by, cy) = places.transpose(2, 1, 0)
+        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        for right in range(FEW):
+            for down in range(FEW):
+                i = np.flatnonzero((wide > right) & (tall > down) & (area != 0.0))
+                x, y = low[i, 0] + right + 0.5, low[i, 1] + down + 0.5
+                second = ((x - ax[i]) * (cy[i] - ay[i]) - (y - ay[i]) * (cx[i] - ax[i])) / area[i]
+                third = ((bx[i] - ax[i]) * (y - ay[i]) - (by[i] - ay[i]) * (x - ax[i])) / area[i]
+                first = 1.0 - second - third
+                depth = first * near[i, 0] + second * near[i, 1] + third * near[i, 2]
+                column, row = low[i, 0] + right, low[i, 1] + down
+                seen = (first >= 0.0) & (second >= 0.0) & (third >= 0.0)
+                seen &= depth > self.nearness[row, column]
+                # Where several cover a pixel, the last one written stays: the nearest.
+                order = np.flatnonzero(seen)[np.argsort(depth[seen], kind="stable")]
+                i, depth, row, column = i[order], depth[order], row[order], column[order]
+                self.colour[row, column] = colours[i]
+                solid = labels[i] >= 0
+                self.nearness[row[solid], column[solid]] = depth[solid]
+                self.label[row[solid], column[solid]] = labels[i[solid]]
 
     def _fill(self, place: Array, near: Array, colour: Array, label: int) -> None:
         size = np.array(self.nearness.shape[::-1])

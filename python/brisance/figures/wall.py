@@ -1,7 +1,8 @@
-"""The brick walls of the example scenes, simulated for the figures that show them."""
+"""The example scenes, simulated for the figures that show them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,12 +18,15 @@ BLOWN_APART = "brick_wall.toml"
 RESISTS = "brick_wall_resists.toml"
 
 
-def scene(name: str) -> Scene:
-    """Load the example scene ``name`` from the ``scenes`` folder above this file or in the current folder."""
+def scene(name: str, changes: Sequence[str] = ()) -> Scene:
+    """Load the example scene ``name``, with ``changes`` as of ``--set``.
+
+    It is looked for in the ``scenes`` folder above this file or in the current folder.
+    """
     for folder in (*Path(__file__).resolve().parents, Path.cwd()):
         path = folder / "scenes" / name
         if path.is_file():
-            return brisance.load(path)
+            return brisance.load(path, list(changes))
     raise InputError(
         f"The scene {name} that this figure shows was not found; run from a checkout of the project."
     )

@@ -74,6 +74,9 @@ def _outline(window: Window, base_folder: Path) -> list[Array]:
     rings = oriented(read)
     if not sum(ring_area(ring) for ring in rings) > 0:
         raise InputError(f"window {window.name!r}: outline must enclose an area above 0.")
+    for ring in rings:
+        if (ring == np.roll(ring, 1, axis=0)).all(axis=1).any():
+            raise InputError(f"window {window.name!r}: outline has a point twice in turn; keep it once.")
     return rings
 
 
@@ -90,8 +93,7 @@ def frame_pieces(glazed: Glazing, *, name: str, seed: int) -> PieceSet:
     turn = np.array(window.orientation())
 
     def add_to(engine: _engine.Scene) -> None:
-        if bars:
-            _add_bars(engine, window, bars, turn)
+        assembly = _add_bars(engine, window, bars, turn) if bars else None
         engine.add_window(
             outline=glazed.rings,
             thickness=window.thickness,
@@ -105,7 +107,7 @@ def frame_pieces(glazed: Glazing, *, name: str, seed: int) -> PieceSet:
             release=window.release,
             bite=window.bite if window.frame else None,
             facade=window.wall_around,
-            framed=bool(bars),
+            assembly=assembly,
             occludes=window.occludes,
             can_rotate=window.can_rotate,
             friction=window.friction,
@@ -146,7 +148,7 @@ class _Bar:
 def _bars(glazed: Glazing) -> list[_Bar]:
     """A bar along each side of the outline.
 
-    At square corners each runs to the outside and the next butts on it.
+    Round a rectangle each runs to the outside and the next butts on it.
     """
     window, ring = glazed.window, glazed.rings[0]
     beyond, depth = BAR_FACE, window.thickness + BAR_DEPTH
@@ -157,8 +159,8 @@ def _bars(glazed: Glazing) -> list[_Bar]:
         along = (end - start) / length
         outward = np.array([along[1], -along[0]])
         first, last = -beyond, length - window.bite
-        if len(ring) != 4:
-            # At other corners bars overlap a little, so that no gap shows.
+        if not _is_rectangle(ring):
+            # Elsewhere bars overlap a little at corners, so that no gap shows.
             first, last = -0.25 * beyond, length + 0.25 * beyond
         face = beyond + window.bite
         centre = start + along * (0.5 * (first + last)) + outward * (0.5 * face - window.bite)
@@ -172,9 +174,16 @@ def _bars(glazed: Glazing) -> list[_Bar]:
     return bars
 
 
-def _add_bars(engine: _engine.Scene, window: Window, bars: list[_Bar], turn: Array) -> None:
+def _is_rectangle(ring: Array) -> bool:
+    """Whether a ring is an upright rectangle that starts at its lower left corner."""
+    low, size = ring.min(axis=0), np.ptp(ring, axis=0)
+    return len(ring) == 4 and np.allclose(ring, low + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * size)
+
+
+def _add_bars(engine: _engine.Scene, window: Window, bars: list[_Bar], turn: Array) -> int | None:
+    """Hand over the bars; return the number of their assembly."""
     size = np.array([bar.size for bar in bars])
-    engine.add_boxes(
+    return engine.add_boxes(
         size=size,
         position=rotate(turn, np.array([bar.centre for bar in bars])) + np.array(window.position),
         orientation=np.array([_turned(turn, bar.angle) for bar in bars]),
@@ -239,8 +248,7 @@ def whole_mesh(rings: list[Array], thickness: float) -> PieceMesh:
 def _cells(rings: list[Array]) -> tuple[Array, list[list[int]]]:
     """Corners (n, 2) [m] and counter-clockwise cells that fill a pane."""
     low, size = rings[0].min(axis=0), np.ptp(rings[0], axis=0)
-    box = low + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * size
-    if len(rings) > 1 or len(rings[0]) != 4 or not np.allclose(rings[0], box):
+    if len(rings) > 1 or not _is_rectangle(rings[0]):
         # Any partition will do; the dice of tempered glass are one of any outline.
         pattern = _engine.fracture(
             outline=rings,

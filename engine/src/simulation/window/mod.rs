@@ -15,13 +15,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::shelter::Shelters;
-use super::targets::{self, LoadQueue, Outlines};
+use super::targets::{self, Outlines, Target};
 use crate::blast::BlastField;
 use crate::dynamics::{Bowing, Hold};
 use crate::error::{Error, Result};
-use crate::fracture::{CrackClock, Fineness, Grown, Pieces, outline};
+use crate::fracture::{CrackClock, Fineness, Glass, Grown, Pieces, Recipe, outline};
 use crate::geometry::{Polygon, Sample};
 use crate::material::{self, mean_fragment_area};
 use crate::random;
@@ -101,11 +102,14 @@ impl Panes {
     /// Loads every pane of a scene and breaks those that fail. At most `most_pieces` pieces in all; `observer` is asked
     /// now and then and may stop the work.
     ///
+    /// `shelters` are those of the scene with every pane standing. A pane that comes apart does not keep the blast from
+    /// what is behind it: for that they are found anew.
+    ///
     /// # Errors
-    /// What [`Scene::validate`] and [`crate::fracture::Recipe::grow`] refuse; more pieces than allowed; [`Error::Cancelled`].
+    /// What [`Scene::validate`] and [`Recipe::grow`] refuse; more pieces than allowed; [`Error::Cancelled`].
     pub fn find(
         scene: &Scene,
-        shelters: &Shelters,
+        shelters: &mut Shelters,
         most_pieces: usize,
         observer: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Self> {
@@ -117,12 +121,29 @@ impl Panes {
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
         let standing = standing(scene);
         let mut found = Self { panes: Vec::new(), outlines: targets::outlines(&standing, &fields)? };
+        let tried: Vec<Trial> = loop {
+            let tried = scene
+                .windows
+                .par_iter()
+                .enumerate()
+                .map(|(number, window)| {
+                    let index = scene.bodies.len() + number;
+                    let target = targets::aim_one(&standing, &fields, shelters, &found.outlines, index)?;
+                    targets::in_time(scene, core::slice::from_ref(&target))?;
+                    Trial::of(window, target).map_err(|error| error.about(&format!("window {number}")))
+                })
+                .collect::<Result<Vec<_>>>()?;
+            if observer().is_break() {
+                return Err(Error::Cancelled);
+            }
+            if !shelters.let_through(scene, tried.iter().map(Trial::comes_apart))? {
+                break tried;
+            }
+        };
         let mut left = most_pieces;
-        for (number, window) in scene.windows.iter().enumerate() {
-            let index = scene.bodies.len() + number;
-            let target = targets::aim_one(&standing, &fields, shelters, &found.outlines, index)?;
-            let axis = target.object_from_principal.conjugate() * DVec3::Z;
-            let pane = Pane::of(window, &target.queue, axis, left, observer)
+        for (number, (window, trial)) in scene.windows.iter().zip(tried).enumerate() {
+            let pane = trial
+                .breaking(window, left, observer)
                 .map_err(|error| error.about(&format!("window {number}")))?;
             left = left.saturating_sub(pane.pieces.len());
             found.panes.push(pane);
@@ -151,63 +172,110 @@ impl Panes {
     }
 }
 
-impl Pane {
-    fn of(
-        window: &Window,
-        queue: &LoadQueue,
-        axis: DVec3,
-        most_pieces: usize,
-        observer: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Self> {
-        let plate = Arc::new(Plate::new(&window.outline, window.thickness, &window.material)?);
-        let samples = samples(&window.outline);
-        let load = Load::new(queue, axis, &plate, &samples);
-        let peak_pressure = queue.highest(axis) / window.outline.area();
-        let mut recipe = window.recipe.clone();
-        let mut warnings = Vec::new();
-        if window.by_load {
-            recipe.fineness = Fineness::Pieces(pieces_of(window, peak_pressure, &mut warnings));
-        }
-        if let Fineness::Pieces(count) = recipe.fineness
-            && count > most_pieces
-        {
-            return Err(Error::Malformed(format!(
-                "would break into about {count} pieces, more than memory holds for so many frames; give it fewer \
-                 pieces or record fewer frames"
-            )));
-        }
+/// A pane that has been loaded but not yet broken.
+struct Trial {
+    glass: Glass,
+    target: Target,
+    plate: Plate,
+    response: Response,
+    fate: Fate,
+}
+
+impl Trial {
+    fn of(window: &Window, target: Target) -> Result<Self> {
+        let plate = Plate::new(&window.outline, window.thickness, &window.material)?;
         let (fate, response) = if window.release == Release::AllAtOnce && window.may_break {
             (Fate::InPieces, Response::none())
         } else {
+            let load = load(window, &target, &plate);
             let response = Response::until_failure(&plate, &load, window.strength, window.may_break);
-            let fails = response.failure.map(|time| Fate::Fails { time, place: origin(&plate, window) });
-            (fails.unwrap_or(Fate::Holds), response)
+            let fails = |time| Fate::Fails { time, place: origin(&plate, window) };
+            (response.failure.map_or(Fate::Holds, fails), response)
         };
-        match fate {
-            Fate::Holds => recipe.fineness = Fineness::Pieces(1),
-            Fate::Fails { place, .. } if recipe.seeds.is_empty() => recipe.seeds.push(place),
-            _ => {}
-        }
+        Ok(Self { glass: window.recipe.glass, target, plate, response, fate })
+    }
+
+    /// Whether it leaves an opening.
+    fn comes_apart(&self) -> bool {
+        self.fate != Fate::Holds && !self.glass.holds()
+    }
+
+    fn breaking(
+        self,
+        window: &Window,
+        most_pieces: usize,
+        observer: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Pane> {
+        let Self { glass, target, plate, response, fate } = self;
+        let load = load(window, &target, &plate);
+        let peak_pressure = target.queue.highest(across(&target)) / window.outline.area();
+        let mut warnings = Vec::new();
+        let recipe = recipe(window, fate, peak_pressure, &mut warnings);
+        let planned = match recipe.fineness {
+            Fineness::Pieces(count) => count as f64,
+            Fineness::CriticalLength(length) if recipe.is_dice() => window.outline.area() / (length * length),
+            Fineness::CriticalLength(_) => 0.0,
+        };
+        check_count(planned, most_pieces)?;
         let grown = recipe.grow_observed(&window.outline, observer)?;
+        check_count(grown.pattern.len() as f64, most_pieces)?;
         let pieces = Pieces::of(&grown.pattern, window.thickness, window.material.density)?;
         let cracks =
             release::Cracks { clock: clock(window, &grown), pattern: &grown.pattern, pieces: &pieces };
         let peak_stress = response.peak * plate.strongest();
         let (bowing, holds) = match fate {
-            Fate::Holds => (response.bowing, vec![Hold::still(f64::INFINITY); pieces.len()]),
-            Fate::InPieces if window.recipe.glass.holds() => {
-                (response.bowing, vec![Hold::still(f64::INFINITY); pieces.len()])
-            }
-            Fate::InPieces => (response.bowing, vec![Hold::still(0.0); pieces.len()]),
             Fate::Fails { .. } => release::holds(window, &plate, &load, response, &cracks),
+            Fate::InPieces if !glass.holds() => {
+                (response.bowing, vec![Hold::until_the_front(); pieces.len()])
+            }
+            _ => (response.bowing, vec![Hold::still(f64::INFINITY); pieces.len()]),
         };
-        Ok(Self { fate, peak_pressure, peak_stress, plate, bowing, grown, pieces, warnings, holds })
+        let plate = Arc::new(plate);
+        Ok(Pane { fate, peak_pressure, peak_stress, plate, bowing, grown, pieces, warnings, holds })
     }
+}
 
+fn load<'a>(window: &Window, target: &'a Target, plate: &Plate) -> Load<'a> {
+    Load::new(&target.queue, across(target), plate, &samples(&window.outline))
+}
+
+/// A pane's own +z in the axes of its loads.
+fn across(target: &Target) -> DVec3 {
+    target.object_from_principal.conjugate() * DVec3::Z
+}
+
+impl Pane {
     /// How many of its pieces stay where they are, in the rebate or on an interlayer.
     pub fn staying(&self) -> usize {
-        self.holds.iter().filter(|hold| hold.until.is_infinite()).count()
+        self.holds.iter().filter(|hold| hold.until == f64::INFINITY).count()
     }
+}
+
+/// How a window breaks: as finely as the load asks for, from where it failed, or not at all.
+fn recipe(window: &Window, fate: Fate, peak_pressure: f64, warnings: &mut Vec<String>) -> Recipe {
+    let mut recipe = window.recipe.clone();
+    match fate {
+        Fate::Holds => {
+            recipe.fineness = Fineness::Pieces(1);
+            return recipe;
+        }
+        Fate::Fails { place, .. } if recipe.seeds.is_empty() => recipe.seeds.push(place),
+        _ => {}
+    }
+    if window.by_load {
+        recipe.fineness = Fineness::Pieces(pieces_of(window, peak_pressure, warnings));
+    }
+    recipe
+}
+
+fn check_count(count: f64, most: usize) -> Result<()> {
+    if count <= most as f64 {
+        return Ok(());
+    }
+    Err(Error::Malformed(format!(
+        "would break into about {count:.0} pieces, more than memory holds for so many frames; give it fewer pieces or \
+         record fewer frames"
+    )))
 }
 
 /// How the cracks of a window keep time; dice are cut by a front at full speed.

@@ -4,15 +4,16 @@
 //!   them. A piece goes with it until its outline has closed, and takes along the speed and the turn of its place.
 //! - A piece that reaches into the rebate of a frame then turns about the edge of the rebate like a door, pushed by the
 //!   mean load on the pane. Once its centre has come out by as much as the rebate holds, or it has turned by a radian, it
-//!   is free; where the load is over before, or where its centre lies in the rebate, it stays: a splinter in the frame.
-//! - On an interlayer nothing comes free. The pane goes on until it has stopped, and stays as far out as that: the
-//!   interlayer stretches, it does not spring back. That is a look, not a model of the interlayer.
+//!   is free. One that the load leaves turning more slowly than [`SLOWEST`] stays, and so does one whose centre lies in
+//!   the rebate: a splinter in the frame.
+//! - On an interlayer nothing comes free. The pane hangs on in the interlayer as in a membrane that yields
+//!   ([`INTERLAYER`]), until it has stopped, and stays as far out as that. That is a look, not a model of the interlayer.
 
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::response::{Load, Record, Response};
+use super::response::{Load, Response, swing};
 use crate::dynamics::{Bowing, Hold, Swing};
 use crate::fracture::{CrackClock, Pattern, Pieces};
 use crate::geometry::PlaneMoments;
@@ -21,6 +22,12 @@ use crate::window::Window;
 
 /// A piece in the rebate is free once it has turned so far [rad].
 const OPEN: f64 = 1.0;
+/// A centre that comes out of the rebate more slowly than this once the load is over stays there [m/s].
+const SLOWEST: f64 = 0.1;
+/// Tension of an interlayer that yields [N/m]: 1.5 mm of polyvinyl butyral at some 15 MPa.
+const INTERLAYER: f64 = 23e3;
+/// Steps in which a pane goes on while a piece of crack closes, or an interlayer stretches.
+const STEPS_ON: f64 = 100.0;
 /// Times at which the load on pieces in the rebate is looked at.
 const LOOKS: usize = 400;
 
@@ -40,12 +47,16 @@ pub(super) fn holds(
     cracks: &Cracks,
 ) -> (Arc<Bowing>, Vec<Hold>) {
     let failure = response.failure.expect("the pane has failed");
-    let outward = response.record.now[0].signum();
+    let outward = response.record.last().map_or(1.0, |(_, now)| now[0].signum());
     let glued = window.recipe.glass.holds();
     let closed: Vec<f64> =
         cracks.pattern.fragments().map(|f| failure + cracks.clock.time(f.closed_at())).collect();
     let last = if glued { f64::INFINITY } else { closed.iter().copied().fold(failure, f64::max) };
-    let bowing = Arc::new(go_on(plate, load, response.record, failure, last));
+    let bowing = Arc::new(if glued {
+        stretch(plate, load, response.record, failure)
+    } else {
+        go_on(plate, load, response.record, last)
+    });
     let rebate = window.bite.filter(|&bite| bite > 0.0 && !glued).map(|bite| Rebate {
         window,
         bite,
@@ -79,26 +90,41 @@ pub(super) fn holds(
     (bowing, holds)
 }
 
-/// The bowing of a pane from its failure on, without stiffness, until `last` [s], or until it has stopped.
-fn go_on(plate: &Plate, load: &Load, mut record: Record, failure: f64, last: f64) -> Bowing {
-    let Record { start, step, .. } = record;
+/// The bowing of a pane from its failure on, without stiffness, until `last` [s].
+fn go_on(plate: &Plate, load: &Load, mut record: Vec<(f64, [f64; 2])>, last: f64) -> Bowing {
     let softness = plate.frequency() * plate.frequency();
-    let end = load.span().map_or(failure, |(_, end)| end);
+    let Some(&(failure, mut now)) = record.last() else { return Bowing::default() };
+    let interval = (last - failure) / STEPS_ON;
+    if interval > 0.0 {
+        for step in 0..STEPS_ON as usize {
+            let from = failure + interval * step as f64;
+            let gain = softness * load.bending(from, from + interval) * interval;
+            now = [now[0] + (now[1] + 0.5 * gain) * interval, now[1] + gain];
+            record.push((from + interval, now));
+        }
+    }
+    Bowing::new(record)
+}
+
+/// The bowing of a pane on an interlayer from its failure on: held as by a membrane, until it has stopped.
+fn stretch(plate: &Plate, load: &Load, mut record: Vec<(f64, [f64; 2])>, failure: f64) -> Bowing {
+    // Of a rectangle's first mode, the stiffness of a membrane over that of the plate: N / (√(D ρh) ω).
+    let share = INTERLAYER / (libm::sqrt(plate.stiffness() * plate.mass_per_area()) * plate.frequency());
+    let frequency = plate.frequency() * libm::sqrt(share);
+    let step = core::f64::consts::PI / frequency / STEPS_ON;
+    let Some(&(_, mut now)) = record.last() else { return Bowing::default() };
+    let outward = now[0].signum();
     let mut from = failure;
     loop {
-        let to = start + step * record.samples.len() as f64;
-        let [amplitude, rate] = record.now;
-        let interval = to - from;
-        let gain = softness * load.bending(from, to) * interval;
-        let next = [amplitude + (rate + 0.5 * gain) * interval, rate + gain];
-        // What an interlayer holds stops where it would turn back, or where nothing pushes it any more.
-        let stops = last.is_infinite() && (next[1] * next[0] <= 0.0 || to > end);
-        record.now = if stops { [next[0], 0.0] } else { next };
-        record.samples.push(record.now);
-        from = to;
-        if stops || to >= last {
-            return Bowing::new(start, step, record.samples);
+        let pressure = load.bending(from, from + step) / share;
+        let next = swing(frequency, step, now, pressure);
+        from += step;
+        if next[1] * outward <= 0.0 {
+            record.push((from, [next[0], 0.0]));
+            return Bowing::new(record);
         }
+        record.push((from, next));
+        now = next;
     }
 }
 
@@ -113,7 +139,7 @@ struct Pushes {
 
 impl Pushes {
     fn new(load: &Load, failure: f64, mass_per_area: f64, outward: f64) -> Self {
-        let end = load.span().map_or(failure, |(_, end)| end).max(failure);
+        let end = load.end_of(failure);
         let step = (end - failure) / LOOKS as f64;
         let (mut velocity, mut way) = (vec![0.0], vec![0.0]);
         for look in 0..LOOKS {
@@ -159,7 +185,9 @@ impl Rebate<'_> {
             let foot = a + (b - a) * along;
             (foot, foot.distance(place))
         };
-        let nearest = self.window.outline.sides().map(on_side).min_by(|a, b| a.1.total_cmp(&b.1));
+        // A hole has no frame.
+        let count = self.window.outline.rings().next().map_or(0, <[DVec2]>::len);
+        let nearest = self.window.outline.sides().take(count).map(on_side).min_by(|a, b| a.1.total_cmp(&b.1));
         nearest.expect("an outline has sides")
     }
 
@@ -198,6 +226,9 @@ impl Rebate<'_> {
             } else {
                 (end, way, rate) = (next, further.max(0.0), faster);
             }
+        }
+        if way < far_enough && rate > SLOWEST {
+            (end, way) = (end + (far_enough - way) / rate, far_enough);
         }
         let free = way >= far_enough;
         let world = |v: DVec2| self.window.orientation * v.extend(0.0);

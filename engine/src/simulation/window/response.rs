@@ -20,8 +20,10 @@ pub(super) const DAMPING: f64 = 0.01;
 const STEPS_A_PERIOD: f64 = 200.0;
 /// Periods that a pane is followed for once its load is over.
 const PERIODS_AFTER: f64 = 4.0;
-/// Steps a pane is followed for at most.
-const MOST_STEPS: f64 = 1e5;
+/// Periods after the arrival of a load for which steps are so fine; later a pane only follows its load.
+const FRESH: f64 = 12.0;
+/// Steps in which the whole of the load is taken at least.
+const LEAST_STEPS: f64 = 1000.0;
 
 /// The load on a whole pane.
 pub(super) struct Load<'a> {
@@ -42,17 +44,8 @@ pub(super) struct Response {
     pub peak: f64,
     /// When it failed [s].
     pub failure: Option<f64>,
-    /// Where the record can be taken up again: the samples, their start and step, and amplitude and rate at failure.
-    pub record: Record,
-}
-
-/// Amplitude [Pa] and rate [Pa/s] at even steps, and now.
-#[derive(Default)]
-pub(super) struct Record {
-    pub start: f64,
-    pub step: f64,
-    pub samples: Vec<[f64; 2]>,
-    pub now: [f64; 2],
+    /// Times [s] with amplitude [Pa] and rate [Pa/s], the last at the failure if there was one.
+    pub record: Vec<(f64, [f64; 2])>,
 }
 
 impl<'a> Load<'a> {
@@ -81,12 +74,17 @@ impl<'a> Load<'a> {
     pub fn span(&self) -> Option<(f64, f64)> {
         (self.queue.start < self.queue.end).then_some((self.queue.start, self.queue.end))
     }
+
+    /// When the load that acts at a time [s] ends, before the next one comes [s].
+    pub fn end_of(&self, t: f64) -> f64 {
+        self.queue.end_of(t)
+    }
 }
 
 impl Response {
     /// That of a pane that nothing bends.
     pub fn none() -> Self {
-        Self { bowing: Arc::default(), peak: 0.0, failure: None, record: Record::default() }
+        Self { bowing: Arc::default(), peak: 0.0, failure: None, record: Vec::new() }
     }
 
     /// Bends a pane until its stress reaches its strength [Pa], where it may fail at all, or until it comes to rest.
@@ -95,29 +93,31 @@ impl Response {
         let frequency = plate.frequency();
         let period = 2.0 * core::f64::consts::PI / frequency;
         let end = load_end + PERIODS_AFTER * period;
-        let step = (period / STEPS_A_PERIOD).max((end - start) / MOST_STEPS);
+        let fine = period / STEPS_A_PERIOD;
+        let coarse = fine.max((end - start) / LEAST_STEPS);
         let limit = if may_fail { strength / plate.strongest() } else { f64::INFINITY };
-        let spring = Spring::new(frequency, DAMPING, step);
-        let mut record = Record { start, step, samples: vec![[0.0; 2]], now: [0.0; 2] };
+        let springs = [fine, coarse].map(|step| (step, Spring::new(frequency, DAMPING, step)));
+        let mut record = vec![(start, [0.0; 2])];
         let (mut peak, mut failure) = (0.0_f64, None);
-        let mut t = start;
+        let (mut t, mut now) = (start, [0.0; 2]);
         while t < end {
+            let fresh = t - load.queue.latest_arrival(t) < FRESH * period;
+            let (step, spring) = &springs[usize::from(!fresh)];
             let pressure = load.bending(t, t + step);
-            let next = spring.step(record.now, pressure);
+            let next = spring.step(now, pressure);
             if next[0].abs() >= limit {
-                let (part, at) = reaching(record.now, pressure, frequency, step, limit);
+                let (part, at) = reaching(now, pressure, frequency, *step, limit);
                 failure = Some(t + part);
-                record.now = at;
+                record.push((t + part, at));
                 peak = limit;
                 break;
             }
             peak = peak.max(next[0].abs());
-            record.samples.push(next);
-            record.now = next;
             t += step;
+            now = next;
+            record.push((t, now));
         }
-        let bowing = Arc::new(Bowing::new(start, step, record.samples.clone()));
-        Self { bowing, peak, failure, record }
+        Self { bowing: Arc::new(Bowing::new(record.clone())), peak, failure, record }
     }
 }
 
@@ -157,4 +157,9 @@ impl Spring {
         let [a, b] = self.carry;
         [pressure + a[0] * off + a[1] * rate, b[0] * off + b[1] * rate]
     }
+}
+
+/// One step of an undamped oscillator, exactly: amplitude [Pa] and rate [Pa/s] after `step` [s] under an even pressure.
+pub(super) fn swing(frequency: f64, step: f64, now: [f64; 2], pressure: f64) -> [f64; 2] {
+    Spring::new(frequency, 0.0, step).step(now, pressure)
 }

@@ -34,7 +34,7 @@ def author_pane(world: Sdf.PrimSpec, pieces: Sdf.PrimSpec, result: Result, pane:
     whole = define(world, names.identifier(f"{pane.name}_pane"), "Mesh")
     whole.kind = "component"
     apply(whole, "MaterialBindingAPI")
-    geometry = Geometries([pane.mesh], smooth=False)[pane.mesh]
+    geometry = Geometries([], hard=[pane.mesh])[pane.mesh]
     author_looks(whole, geometry, material="glass", colour=tint_colours("glass")[0])
     place = attribute(whole, "xformOp:translate", _T.Float3)
     place.default = Gf.Vec3f(*pane.window.position)

@@ -72,7 +72,7 @@ def _author_pane(world: Sdf.PrimSpec, fracture: Fracture) -> None:
         ("critical_length_m", _T.Double, fracture.critical_length),
     ):
         attribute(pane, f"brisance:{name}", kind, value, uniform=True)
-    geometries, colour = Geometries(fracture.meshes, smooth=False), tint_colours(MATERIAL)[0]
+    geometries, colour = Geometries([], hard=fracture.meshes), tint_colours(MATERIAL)[0]
     inertias, places = _principal(fracture), fracture.positions.tolist()
     for index, mesh in enumerate(fracture.meshes):
         piece = define(pane, f"piece_{index}", "Mesh")

@@ -41,7 +41,8 @@ class Show:
         self.moves: NDArray[np.bool_] = self.carries[0] | self.turns[0]
         self.velocities = final_velocities(self.positions, result.frame_rate)
         self.spins = final_spins(self.orientations, result.frame_rate)
-        self.geometries = Geometries(result.meshes)
+        shards = min((pane.start for pane in result.panes), default=len(result.meshes))
+        self.geometries = Geometries(result.meshes[:shards], hard=result.meshes[shards:])
         self.facts = Facts(result)
         self.names = Names(RESERVED)
         self._progress = progress
