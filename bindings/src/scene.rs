@@ -1,9 +1,11 @@
 //! Building and running a scene from Python.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use engine::air::Air;
 use engine::charge::Charge;
+use engine::dynamics::contact::Mortar;
 use engine::dynamics::ground::Ground;
 use engine::geometry::{MassProperties, TriangleMesh};
 use engine::loading::Clearing;
@@ -74,7 +76,7 @@ pub struct Scene {
 impl Scene {
     #[new]
     #[pyo3(signature = (*, pressure, temperature, ground, duration, frame_rate, step, mode, clearing, drag, pulse,
-        negative_phase, occlusion, damping_factor, rotation_factor))]
+        negative_phase, occlusion, damping_factor, rotation_factor, contacts, until_rest))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         pressure: f64,
@@ -91,6 +93,8 @@ impl Scene {
         occlusion: OcclusionArgument,
         damping_factor: f64,
         rotation_factor: f64,
+        contacts: bool,
+        until_rest: bool,
     ) -> PyResult<Self> {
         let clearing = match clearing {
             ClearingArgument::Length(length) => Clearing::Length(length),
@@ -106,7 +110,8 @@ impl Scene {
             charges: Vec::new(),
             bodies: Vec::new(),
             windows: Vec::new(),
-            time: Time { duration, frame_rate, step },
+            mortar: BTreeMap::new(),
+            time: Time { duration, frame_rate, step, until_rest },
             loading: Loading {
                 mode: loading_mode(mode)?,
                 clearing,
@@ -115,7 +120,7 @@ impl Scene {
                 negative_phase,
             },
             occlusion: occlusion.into_engine()?,
-            dynamics: Dynamics { damping_factor, rotation_factor },
+            dynamics: Dynamics { damping_factor, rotation_factor, contacts },
         };
         Ok(Self { scene, assemblies: 0 })
     }
@@ -147,9 +152,11 @@ impl Scene {
         Ok(())
     }
 
-    /// Adds n boxes and returns the number of their assembly, if they are one: sizes (n, 3), positions (n, 3), orientations (n, 4) w first, masses (n,), buried faces (n, 6).
+    /// Adds n boxes and returns the number of their assembly, if they are one: sizes (n, 3), positions (n, 3),
+    /// orientations (n, 4) w first, masses (n,), buried faces (n, 6). `mortar` binds those of an assembly: tensile and
+    /// shear strength [Pa] and the width of the joints [m].
     #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, occludes, can_rotate,
-        friction, drag_coefficient, lift_coefficient))]
+        friction, drag_coefficient, lift_coefficient, mortar=None))]
     #[allow(clippy::too_many_arguments)]
     fn add_boxes(
         &mut self,
@@ -165,6 +172,7 @@ impl Scene {
         friction: f64,
         drag_coefficient: f64,
         lift_coefficient: Option<f64>,
+        mortar: Option<(f64, f64, f64)>,
     ) -> PyResult<Option<u32>> {
         let sizes = vectors(&size, "size")?;
         let positions = vectors(&position, "position")?;
@@ -178,6 +186,9 @@ impl Scene {
         }
         let group = assembly.then_some(self.assemblies);
         self.assemblies += u32::from(assembly);
+        if let (Some(group), Some((tensile, shear, gap))) = (group, mortar) {
+            self.scene.mortar.insert(group, Mortar { tensile, shear, gap });
+        }
         let buried = buried.as_array();
         for i in 0..sizes.len() {
             let flags = std::array::from_fn(|face| buried[[i, face]]);

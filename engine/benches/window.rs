@@ -20,7 +20,8 @@ fn scene(pieces: usize, frames: usize, frame_rate: f64) -> Scene {
     let mut scene = glazed::scene(window, 500.0, 110.0);
     scene.charges[0].time = -0.26;
     scene.ground = Some(Ground { height: -1.6, friction: 0.5 });
-    scene.time = Time { duration: (frames - 1) as f64 / frame_rate, frame_rate, step: None };
+    scene.time =
+        Time { duration: (frames - 1) as f64 / frame_rate, frame_rate, step: None, until_rest: false };
     scene
 }
 

@@ -1,5 +1,6 @@
 //! What a simulation is given: plain structs, checked once.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
@@ -8,6 +9,7 @@ use crate::air::Air;
 use crate::blast::PulseShape;
 use crate::charge::Charge;
 use crate::dynamics::Hold;
+use crate::dynamics::contact::Mortar;
 use crate::dynamics::ground::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::geometry::{MassProperties, Polygon, Sample, TriangleMesh};
@@ -28,6 +30,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Panes that may break; their pieces follow the bodies in results, pane after pane.
     pub windows: Vec<Window>,
+    /// Mortar between the boxes of an assembly, by the assembly's number. It binds where bodies collide.
+    pub mortar: BTreeMap<u32, Mortar>,
     /// How long, how finely.
     pub time: Time,
     /// How loads are found.
@@ -47,6 +51,8 @@ pub struct Time {
     pub frame_rate: f64,
     /// Longest simulation step [s]; chosen from the loads when left out.
     pub step: Option<f64>,
+    /// Whether the run ends as soon as all loads are over and all bodies rest, at the latest after `duration`.
+    pub until_rest: bool,
 }
 
 impl Time {
@@ -79,11 +85,13 @@ pub struct Dynamics {
     pub damping_factor: f64,
     /// Multiplies the torque of the blast.
     pub rotation_factor: f64,
+    /// Whether bodies collide, pile up and come to rest; otherwise they meet the ground alone.
+    pub contacts: bool,
 }
 
 impl Default for Dynamics {
     fn default() -> Self {
-        Self { damping_factor: 1.0, rotation_factor: 1.0 }
+        Self { damping_factor: 1.0, rotation_factor: 1.0, contacts: false }
     }
 }
 
@@ -240,6 +248,10 @@ impl Scene {
         self.occlusion.validate()?;
         not_negative("damping factor", self.dynamics.damping_factor)?;
         not_negative("rotation factor", self.dynamics.rotation_factor)?;
+        for mortar in self.mortar.values() {
+            not_negative("tensile strength of mortar [Pa]", mortar.tensile)?;
+            not_negative("shear strength of mortar [Pa]", mortar.shear)?;
+        }
         self.bodies.iter().try_for_each(Body::validate)?;
         self.windows.iter().try_for_each(Window::validate)
     }

@@ -1,5 +1,6 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
+mod contacts;
 mod later;
 mod shelter;
 mod targets;
@@ -18,6 +19,7 @@ use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, Hold, LANES, 
 use crate::error::{Error, Result};
 use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
+use contacts::Contacts;
 use later::Later;
 pub use shelter::{Shelters, seen_from};
 use targets::{LoadQueue, Peaks, Shot, Target};
@@ -37,7 +39,10 @@ pub struct Simulation {
     support: Support,
     /// Fronts that come after bodies have left their places.
     later: Option<Later>,
+    /// Bodies that touch; `None` where each moves for itself and meets the ground alone.
+    contacts: Option<Contacts>,
     world: World,
+    until_rest: bool,
     frames: usize,
     frame_rate: f64,
     steps_per_frame: usize,
@@ -174,6 +179,7 @@ impl Simulation {
                 (false, false) => Phase::Standing,
             })
             .collect();
+        let contacts = scene.dynamics.contacts.then(|| Contacts::new(scene, &targets));
         let lives = targets
             .into_iter()
             .zip(&scene.bodies)
@@ -205,6 +211,8 @@ impl Simulation {
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
                 level: Level::new(),
             },
+            contacts,
+            until_rest: scene.time.until_rest,
             frames: scene.time.frames(),
             frame_rate: scene.time.frame_rate,
             steps_per_frame,
@@ -225,14 +233,16 @@ impl Simulation {
     /// [`Error::Cancelled`] when the observer breaks off.
     pub fn run(mut self, observer: &mut dyn FnMut(usize, usize) -> ControlFlow<()>) -> Result<Recording> {
         let mut recording = Recording { step: self.step(), ..Recording::default() };
-        recording.positions.reserve_exact(self.frames * self.bodies.len());
-        recording.orientations.reserve_exact(self.frames * self.bodies.len());
+        if !self.until_rest {
+            recording.positions.reserve_exact(self.frames * self.bodies.len());
+            recording.orientations.reserve_exact(self.frames * self.bodies.len());
+        }
         let mut left = Vec::new();
         for frame in 0..self.frames {
             if frame > 0 {
-                let first = (frame - 1) * self.steps_per_frame;
-                for step in first..first + self.steps_per_frame {
-                    let dt = self.step();
+                let steps = self.steps_to(frame);
+                let dt = 1.0 / (self.frame_rate * steps as f64);
+                for step in (frame - 1) * steps..frame * steps {
                     self.advance(step as f64 * dt, (step + 1) as f64 * dt, &mut left);
                     if observer(frame, self.frames).is_break() {
                         return Err(Error::Cancelled);
@@ -240,7 +250,11 @@ impl Simulation {
                 }
             }
             self.record(frame, &mut recording);
+            if self.until_rest && self.rests(frame as f64 / self.frame_rate) {
+                break;
+            }
         }
+        self.conclude(recording.times.last().copied().unwrap_or(0.0));
         let bodies = (0..self.bodies.len()).map(|index| self.bodies.get(index));
         recording.facts = bodies.zip(self.lives).map(|(body, life)| life.finish(&body)).collect();
         recording.warnings = self.warnings;
@@ -250,6 +264,9 @@ impl Simulation {
     /// One step of every body, then what they change for each other.
     fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
         self.meet_fronts(t1);
+        if self.contacts.is_some() {
+            return self.touch(t0, t1);
+        }
         let (world, support) = (&self.world, &self.support);
         let (blocks, shared) = (self.bodies.blocks_mut(), self.phases.len() >= WORTH_SHARING);
         let one = |(index, ((block, phases), lives))| {
@@ -405,6 +422,12 @@ impl World {
                 Concern::Nothing
             }
         };
+        self.launch(body, phase, life, t1);
+        concern
+    }
+
+    /// Notes the speed with which a body's loads leave it.
+    fn launch(&self, body: &RigidBody, phase: &mut Phase, life: &mut Life, t1: f64) {
         if !life.launched && life.queue.end <= t1 {
             life.launched = true;
             life.facts.launch_speed = life.facts.launch_speed.max(body.velocity.length());
@@ -412,7 +435,6 @@ impl World {
         if *phase == Phase::Free && life.launched {
             *phase = Phase::Flying;
         }
-        concern
     }
 
     /// Puts panel loads and wind on a body's velocity and angular momentum.

@@ -119,7 +119,7 @@ fn the_launch_speed_is_that_of_the_flight() {
     for (mass, gain) in [(10.0, 1.0), (0.1, 1.0), (5e-4, 1.0), (10.0, 1000.0), (5e-4, 1000.0)] {
         let mut scene = lone(BRICK, DVec3::new(0.0, 0.0, 15.0), mass);
         scene.charges[0].gain = gain;
-        scene.time = Time { duration: 0.1, frame_rate: 1e5, step: None };
+        scene.time = Time { duration: 0.1, frame_rate: 1e5, step: None, until_rest: false };
         let recording = run(&scene);
         let point = BlastField::new(&scene.charges[0], &scene.air).unwrap().at(DVec3::new(0.0, 0.0, 15.0));
         let end = ((point.arrival_time + point.duration) * 1e5).ceil() as usize;
@@ -233,7 +233,7 @@ fn a_face_laid_bare_feels_the_wave() {
         scene.bodies[0].can_rotate = false;
         scene.bodies[0].drag_coefficient = 0.0;
         scene.loading.mode = LoadingMode::Surface;
-        scene.time = Time { duration: 0.06, frame_rate: 1000.0, step: Some(1e-4) };
+        scene.time = Time { duration: 0.06, frame_rate: 1000.0, step: Some(1e-4), until_rest: false };
         let recording = run(&scene);
         let left = recording.positions.iter().position(|p| p.z > 15.0 + 0.05).unwrap();
         (f64::from(recording.positions[60].y), 0.06 - recording.times[left])
@@ -258,7 +258,7 @@ fn a_later_charge_hits_a_body_where_it_is() {
     both.bodies[0].assembly = Some(0);
     both.loading.drag = Drag::Thesis;
     both.loading.clearing = Clearing::Piece;
-    both.time = Time { duration: 1.2, frame_rate: 1000.0, step: Some(1e-3) };
+    both.time = Time { duration: 1.2, frame_rate: 1000.0, step: Some(1e-3), until_rest: false };
     let alone = run(&both);
     both.charges.push(second.clone());
     let hit = run(&both);

@@ -132,7 +132,7 @@ fn pieces_move_with_the_pane_until_they_are_free() {
     let mut scene = scene(window(1.0, 1.0, 0.006, 100), 500.0, 110.0);
     let arrival = BlastField::new(&scene.charges[0], &scene.air).unwrap().at(DVec3::ZERO).arrival_time;
     scene.charges[0].time = 0.001 - arrival;
-    scene.time = Time { duration: 0.008, frame_rate: 5000.0, step: None };
+    scene.time = Time { duration: 0.008, frame_rate: 5000.0, step: None, until_rest: false };
     let (panes, recording) = run(&scene);
     let pane = &panes.panes[0];
     let count = pane.pieces.len();
@@ -366,7 +366,7 @@ fn sheltered_pieces_do_not_hang_in_the_air() {
 #[test]
 fn the_rim_does_not_stop_where_the_load_ends() {
     let mut scene = scene(window(1.0, 1.0, 0.006, 100), 1.0, 2.0);
-    scene.time = Time { duration: 0.2, frame_rate: 5000.0, step: None };
+    scene.time = Time { duration: 0.2, frame_rate: 5000.0, step: None, until_rest: false };
     let (panes, recording) = run(&scene);
     let count = recording.facts.len();
     let speed = |frame: usize, piece: usize| {

@@ -223,6 +223,8 @@ class Scene:
         occlusion: Mapping[str, bool | int | float | str],
         damping_factor: float,
         rotation_factor: float,
+        contacts: bool,
+        until_rest: bool,
     ) -> Self: ...
     def add_charge(
         self,
@@ -250,6 +252,7 @@ class Scene:
         friction: float,
         drag_coefficient: float,
         lift_coefficient: float | None,
+        mortar: tuple[float, float, float] | None = None,
     ) -> int | None: ...
     def add_mesh(
         self,

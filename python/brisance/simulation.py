@@ -97,7 +97,7 @@ def build(scene: Scene) -> Built:
             pressure=air.pressure,
             temperature=air.temperature,
             ground=(ground.height, ground.friction) if ground else None,
-            duration=scene.time.duration,
+            duration=scene.time.end,
             frame_rate=scene.time.frame_rate,
             step=scene.time.step,
             mode=loading.mode,
@@ -108,6 +108,8 @@ def build(scene: Scene) -> Built:
             occlusion=scene.occlusion.model_dump(),
             damping_factor=scene.dynamics.damping_factor,
             rotation_factor=scene.dynamics.rotation_factor,
+            contacts=scene.dynamics.contacts,
+            until_rest=scene.time.until_rest,
         )
         for number, charge in enumerate(scene.charges):
             engine.add_charge(
@@ -175,7 +177,7 @@ def _source(scene: Scene, number: int) -> str | dict[str, NDArray[np.float64]]:
 
 
 def _check_step(scene: Scene) -> None:
-    step, duration = scene.time.step, scene.time.duration
+    step, duration = scene.time.step, scene.time.end
     if step is not None and step * MAX_STEPS < duration:
         raise InputError(
             f"time.step must be at least {duration / MAX_STEPS:.3g} s for a duration of {duration:g} s, "
@@ -200,10 +202,6 @@ def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
     warnings = [warning for group in sets for warning in group.warnings]
     if scene.ground is None and not all(obj.anchored for obj in scene.objects):
         warnings.append("The scene has no [ground], so nothing stops what falls.")
-    if scene.dynamics.contacts:
-        warnings.append(
-            "dynamics.contacts: in this version pieces meet only the ground and pass through each other."
-        )
     if not sets:
         warnings.append("The scene has no object for the blast to act on.")
     return warnings

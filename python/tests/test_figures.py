@@ -26,7 +26,7 @@ BLOCKS = ("4.6", "4.7", "4.8")
 """Figures whose table has a row a block."""
 NAMES += ["5.5", "5.10", "5.11", "5.12", "5.13", "5.14", "5.16", "6.1", "6.2", "6.3"]
 NAMES += ["6.4", "6.5", "6.6"]
-BEYOND = ["window-plume", "window-fragments"]
+BEYOND = ["window-plume", "window-fragments", "dispersal"]
 """Figures that the thesis does not have."""
 NAMES += BEYOND
 SMALL = (420, 320)

@@ -18,9 +18,9 @@ pub struct Ground {
 }
 
 /// Share of the approach speed that a bounce gives back, for stone on stone.
-const RESTITUTION: f64 = 0.2;
+pub const RESTITUTION: f64 = 0.2;
 /// Below this approach speed nothing bounces [m/s].
-const BOUNCE_SPEED: f64 = 0.3;
+pub const BOUNCE_SPEED: f64 = 0.3;
 /// Corners within this height above the plane count as touching when a body comes to rest [m].
 const TOUCH: f64 = 2e-3;
 /// A corner that approaches slower than this has stopped [m/s].
@@ -29,7 +29,7 @@ const SWEEPS: usize = 16;
 /// Most corners a body may touch with.
 const MOST_CORNERS: usize = 32;
 /// A body that moves slower than this on three corners is as good as still [m/s].
-const CALM_SPEED: f64 = 0.05;
+pub const CALM_SPEED: f64 = 0.05;
 /// How long a body must be calm to be at rest [s].
 pub const CALM_TIME: f64 = 0.1;
 

@@ -5,7 +5,8 @@
 //! - [`Support`]: what stands on what, and with which weight (thesis 3.6);
 //! - [`standing`]: friction that must be exceeded;
 //! - [`Hold`]: pieces of a pane before they are free (thesis 6.7);
-//! - [`ground`]: a plane that bodies fall on.
+//! - [`ground`]: a plane that bodies fall on;
+//! - [`contact`]: bodies that collide, pile up and come to rest, through a physics engine (thesis 7.1).
 //!
 //! Each body moves on its own within a step; only what stands on what couples them, and that is settled between
 //! steps.
@@ -13,6 +14,7 @@
 
 mod bodies;
 mod body;
+pub mod contact;
 pub mod ground;
 mod hold;
 pub mod standing;

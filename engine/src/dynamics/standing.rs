@@ -81,9 +81,13 @@ impl Place {
         if body.angular_momentum != DVec3::ZERO {
             body.turn(dt);
         }
+        if self.is_left(body) { Outcome::Leaves } else { outcome }
+    }
+
+    /// Whether a body has been pushed off its support or tipped.
+    pub fn is_left(&self, body: &RigidBody) -> bool {
         let up = body.world_from_principal * (self.world_from_principal.conjugate() * DVec3::Y);
-        let gone = body.position.distance_squared(self.origin) > self.margin * self.margin || up.y < TILT;
-        if gone { Outcome::Leaves } else { outcome }
+        body.position.distance_squared(self.origin) > self.margin * self.margin || up.y < TILT
     }
 }
 

@@ -41,6 +41,17 @@ impl TriangleMesh {
         self.triangles.iter().map(|t| t.map(|i| self.vertices[i as usize]))
     }
 
+    /// Whether a point lies inside a closed mesh: what surrounds it takes up all directions (Van Oosterom and Strackee
+    /// 1983).
+    pub fn encloses(&self, point: DVec3) -> bool {
+        let angle = |corners: [DVec3; 3]| {
+            let [a, b, c] = corners.map(|corner| corner - point);
+            let (x, y, z) = (a.length(), b.length(), c.length());
+            libm::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y)
+        };
+        self.corners().map(angle).sum::<f64>() > core::f64::consts::PI
+    }
+
     /// The vertices farthest out along 26 directions (axes, edges and corners of a cube), each once.
     ///
     /// They stand for the mesh wherever its convex outline is enough, as on the ground plane.

@@ -35,6 +35,19 @@ impl Later {
         }
     }
 
+    /// Whether a front reaches one of the waiting bodies by `now`.
+    pub fn comes(&self, now: f64, body: impl Fn(usize) -> RigidBody) -> bool {
+        self.waiting.iter().zip(&self.fields).any(|(waiting, field)| {
+            let radius = if waiting.is_empty() { 0.0 } else { field.front_radius(now) };
+            waiting.iter().any(|&index| reaches(field, radius, &body(index)))
+        })
+    }
+
+    /// Whether any body waits for a front.
+    pub fn awaited(&self) -> bool {
+        self.waiting.iter().any(|waiting| !waiting.is_empty())
+    }
+
     /// The bodies that a front reaches by `now`, with what it does to them.
     pub fn reached(&mut self, now: f64, body: impl Fn(usize) -> RigidBody) -> Vec<(usize, usize, Shot)> {
         let mut reached = Vec::new();

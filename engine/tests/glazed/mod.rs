@@ -51,7 +51,7 @@ pub fn scene(window: Window, mass: f64, distance: f64) -> Scene {
     Scene {
         windows: vec![window],
         ground: None,
-        time: Time { duration: 0.5, frame_rate: 100.0, step: None },
+        time: Time { duration: 0.5, frame_rate: 100.0, step: None, until_rest: false },
         ..wall::scene(Vec::new(), vec![charge])
     }
 }

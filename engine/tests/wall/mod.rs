@@ -2,6 +2,7 @@
 //! 15 m behind them.
 #![allow(dead_code)] // each test program uses its own part
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use brisance_engine::air::Air;
@@ -62,8 +63,9 @@ pub fn scene(bodies: Vec<Body>, charges: Vec<Charge>) -> Scene {
         ground: Some(Ground { height: 0.0, friction: 0.6 }),
         charges,
         bodies,
+        mortar: BTreeMap::new(),
         windows: Vec::new(),
-        time: Time { duration: 0.4, frame_rate: 100.0, step: None },
+        time: Time { duration: 0.4, frame_rate: 100.0, step: None, until_rest: false },
         loading: Loading::default(),
         occlusion: Settings::default(),
         dynamics: Dynamics::default(),

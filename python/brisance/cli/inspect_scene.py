@@ -28,10 +28,11 @@ def describe(path: Path, changes: list[str]) -> str:
     centres, orientations = start["centre_m"], start["orientation"]
     count_now = sum(len(group) for group in built.standing)
     time, ground = scene.time, scene.ground
+    lasting = f"until all rests, at most {time.longest:g} s" if time.until_rest else f"{time.end:g} s"
     parts = [
         f"{scene.name}: {count(len(scene.charges), 'charge')}, {count(len(scene.objects), 'object')}, "
         f"{count(count_now, 'piece')}{' before panes break' if built.windows else ''}",
-        f"{count(time.frames, 'frame')}: {time.duration:g} s at {time.frame_rate:g} frames/s; "
+        f"{count(time.frames, 'frame')}: {lasting} at {time.frame_rate:g} frames/s; "
         + (f"ground at y = {ground.height:g} m" if ground else "no ground")
         + f"; {scene.loading.mode} loading, clearing {scene.loading.clearing}, seed {scene.seed}",
         "",

@@ -13,6 +13,7 @@ from typing import Any
 
 from brisance.errors import InputError
 from brisance.figures import (
+    dispersal,
     figure_2_3,
     figure_2_4,
     figure_2_5,
@@ -101,6 +102,7 @@ _MODULES = (
     figure_6_6,
     figure_window_plume,
     figure_window_fragments,
+    dispersal,
 )
 
 FIGURES: dict[str, Figure[Any]] = {module.FIGURE.name: module.FIGURE for module in _MODULES}

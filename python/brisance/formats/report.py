@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import brisance
+from brisance.dispersal import summary
 from brisance.formats.atomic import write_text
 from brisance.model import Charge
 
@@ -60,6 +61,7 @@ def report(result: Result) -> dict[str, Any]:
         "warnings": list(result.warnings),
         "charges": [_charge(charge) for charge in scene.charges],
         "windows": [_window(pane) for pane in result.panes],
+        "dispersal": summary(result),
         "settings": scene.model_dump(mode="json", exclude={"charges", "objects", "name", "seed"}),
         "bodies": [
             {"name": name, "source": source, **dict(zip(_PER_BODY, facts, strict=True))}

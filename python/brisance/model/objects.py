@@ -155,6 +155,16 @@ class BrickWall(SceneObject):
         description="Width of the joints [m], 0 to less than a brick's length; default 0. They carry no "
         "load.",
     )
+    mortar_tensile: NotNegative = Field(
+        default=0.0,
+        description="Strength of the joints against being pulled apart or bent [Pa], 0 or more; default 0. "
+        "Lime mortar has some 1e5, cement mortar 2e5 to 1e6. It needs dynamics.contacts.",
+    )
+    mortar_shear: NotNegative = Field(
+        default=0.0,
+        description="Strength of the joints against being sheared [Pa], 0 or more; default 0: no mortar "
+        "where both are 0. Mortar has some 1e5 to 4e5.",
+    )
     position: Vector = Field(
         default=(0.0, 0.0, 0.0), description="Centre of the wall's foot [m]; default the origin."
     )
@@ -177,6 +187,13 @@ class BrickWall(SceneObject):
                 "has a mortar_gap as wide as a brick is long; make it smaller than the length of a brick"
             )
         return self
+
+    @property
+    def mortar(self) -> tuple[float, float, float] | None:
+        """Tensile and shear strength of the joints [Pa] and their width [m]; None where nothing binds."""
+        if self.mortar_tensile == 0 and self.mortar_shear == 0:
+            return None
+        return self.mortar_tensile, self.mortar_shear, self.mortar_gap
 
     @property
     def whole_mass(self) -> float:

@@ -12,11 +12,15 @@ from brisance.model.base import Count, Model, Name, NotNegative, Number, Positiv
 class Time(Model):
     """How long the scene lasts and how finely it is recorded. `[time]`"""
 
-    duration: Positive = Field(
+    duration: Annotated[Positive, Field(le=1e9)] | Literal["rest"] = Field(
         default=1.0,
-        le=1e9,
         description="Length of the simulation [s], above 0 to 1e9; default 1. Frames run from 0 to "
-        "duration times frame_rate.",
+        'duration times frame_rate. Or "rest": it ends when all loads are over and every piece rests.',
+    )
+    longest: Positive = Field(
+        default=30.0,
+        le=1e9,
+        description='When a run with duration = "rest" ends at the latest [s], above 0 to 1e9; default 30.',
     )
     frame_rate: Positive = Field(
         default=60.0,
@@ -32,8 +36,18 @@ class Time(Model):
 
     @property
     def frames(self) -> int:
-        """Number of frames recorded, the initial one included."""
-        return round(self.duration * self.frame_rate) + 1
+        """Most frames recorded, the initial one included."""
+        return round(self.end * self.frame_rate) + 1
+
+    @property
+    def until_rest(self) -> bool:
+        """Whether the run ends when all rests."""
+        return self.duration == "rest"
+
+    @property
+    def end(self) -> float:
+        """When the run ends at the latest [s]."""
+        return self.longest if isinstance(self.duration, str) else self.duration
 
 
 class Air(Model):
@@ -146,7 +160,9 @@ class Dynamics(Model):
         "tumbling.",
     )
     contacts: StrictBool = Field(
-        default=False, description="Whether pieces collide and pile up; default false."
+        default=False,
+        description="Whether pieces collide with each other, pile up and come to rest; default false: each "
+        "meets the ground alone.",
     )
 
 

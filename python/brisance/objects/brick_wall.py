@@ -95,6 +95,7 @@ def wall_pieces(wall: BrickWall, *, name: str) -> PieceSet:
             friction=wall.friction,
             drag_coefficient=wall.drag_coefficient,
             lift_coefficient=wall.lift_coefficient,
+            mortar=wall.mortar,
         )
 
     return PieceSet(

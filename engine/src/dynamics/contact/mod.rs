@@ -1,0 +1,281 @@
+//! Bodies that collide, slide, pile up and come to rest, through Box3D (crate `boxddd`).
+//!
+//! The physics engine finds contacts and solves them; what drives the bodies comes from outside, as changes of their
+//! velocities before each step. Bodies may join late: a piece of a pane is not here until it is free. A body at rest
+//! falls asleep and costs nothing until something touches it.
+//!
+//! The engine works in single precision; places are taken about the middle of the scene. It runs on one thread: with
+//! several its results were seen to differ from run to run, and a thousand bodies gained nothing from a second one
+//! (`docs/decisions/contacts.md`). So the bits are the same for any number of threads, and Box3D avoids the platform's
+//! mathematics library and fused operations.
+
+mod cells;
+mod hull;
+mod mortar;
+mod shape;
+
+use std::collections::HashMap;
+
+use boxddd::{
+    BodyId, BodyMoveEvent, BodyType, BoxHull, Filter, Foundation, FoundationConfig, MassData, Matrix3,
+    MotionLocks, Quat, ShapeDef, StallThreshold, Vec3, World,
+};
+use glam::{DQuat, DVec3};
+
+use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
+use super::{GRAVITY, RigidBody};
+use mortar::Bonds;
+pub use mortar::{Bond, Mortar, bonds_of_bricks};
+pub use shape::CollisionShape;
+
+/// Box3D's tolerances are for bodies of a metre; ours are this much finer: its slop is 0.25 mm, the distance at which
+/// contacts begin 1 mm.
+const FINENESS: f32 = 0.05;
+/// Stiffness of contacts [Hz], their damping ratio, and how fast an overlap is driven apart at most [m/s].
+///
+/// Bodies that overlap when they are freed gain no more speed than the last.
+const CONTACT: (f32, f32, f32) = (240.0, 10.0, 0.4);
+/// A body all of which moves slower than this for half a second falls asleep [m/s].
+const SLEEP_SPEED: f32 = 0.03;
+/// Faster than any body a blast throws [m/s].
+const FASTEST: f32 = 1e4;
+/// Longest sub-step of the contacts [s].
+const SUBSTEP: f64 = 1.0 / 960.0;
+/// Longest step [s]; with the sub-steps it gives.
+pub const LONGEST_STEP: f64 = 4.0 * SUBSTEP;
+/// Bodies farther than this from the middle of the scene do not meet others any more [m].
+pub const REACH: f64 = 3000.0;
+/// Half the width of the ground, and its depth [m].
+const GROUND: (f32, f32) = (4000.0, 20.0);
+
+/// What a body is to the contact world.
+#[derive(Debug, Clone)]
+pub struct ContactBody {
+    /// Its shape.
+    pub shape: CollisionShape,
+    /// Coefficient of friction; that of two bodies together is the geometric mean.
+    pub friction: f64,
+    /// Whether it never moves.
+    pub anchored: bool,
+    /// What it does not meet.
+    pub passes: Passes,
+}
+
+/// Bodies that do not meet each other: glass lies in the rebate of its frame, inside the frame's own shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Passes {
+    /// It meets everything.
+    Nothing,
+    /// It holds glass, and does not meet that.
+    Glass,
+    /// It was held by frames, and does not meet those.
+    Frames,
+}
+
+impl Passes {
+    fn filter(self) -> Filter {
+        const FRAME: u64 = 2;
+        let (category_bits, mask_bits) = match self {
+            Self::Nothing => (1, u64::MAX),
+            Self::Glass => (FRAME, u64::MAX),
+            Self::Frames => (1, !FRAME),
+        };
+        Filter { category_bits, mask_bits, group_index: 0 }
+    }
+}
+
+/// Where a body is and how it moves after a step, and whether it has just fallen asleep.
+#[derive(Debug, Clone, Copy)]
+pub struct Moved {
+    /// Which body.
+    pub index: usize,
+    /// Whether it fell asleep in this step.
+    pub asleep: bool,
+}
+
+/// All bodies that can touch.
+pub struct ContactWorld {
+    world: World,
+    bodies: Vec<ContactBody>,
+    ids: Vec<Option<BodyId>>,
+    index: HashMap<BodyId, usize>,
+    bonds: Bonds,
+    origin: DVec3,
+    events: Vec<BodyMoveEvent>,
+}
+
+/// What Box3D refuses is a mistake of ours, since scenes are checked before.
+const SOUND: &str = "Box3D takes what the scene's checks let through";
+
+impl ContactWorld {
+    /// A world with the ground alone; `origin` is the middle of the scene [m]. Bodies come by [`join`](Self::join).
+    pub fn new(bodies: Vec<ContactBody>, ground: Option<Ground>, origin: DVec3) -> Self {
+        let config =
+            FoundationConfig { length_units_per_meter: FINENESS, stall_threshold: StallThreshold::Disabled };
+        let foundation = Foundation::initialize(config).expect(SOUND);
+        let (hertz, damping, speed) = CONTACT;
+        let settings = foundation
+            .world_def_builder()
+            .gravity([0.0, -GRAVITY as f32, 0.0])
+            .worker_count(1)
+            .restitution_threshold(BOUNCE_SPEED as f32)
+            .contact_tuning(hertz, damping, speed)
+            .maximum_linear_speed(FASTEST);
+        let mut world = foundation.create_world(settings.build().expect(SOUND)).expect(SOUND);
+        if let Some(ground) = ground {
+            let (half, depth) = GROUND;
+            let top = (ground.height - origin.y) as f32;
+            let below = foundation.body_def_builder().position([0.0, top - 0.5 * depth, 0.0]);
+            let id = world.create_body(below.build().expect(SOUND)).expect(SOUND);
+            let slab = BoxHull::new(half, 0.5 * depth, half).expect(SOUND);
+            world
+                .create_hull_shape(id, &surface(foundation, ground.friction, Passes::Nothing), &slab)
+                .expect(SOUND);
+        }
+        let ids = vec![None; bodies.len()];
+        Self {
+            world,
+            bodies,
+            ids,
+            index: HashMap::new(),
+            bonds: Bonds::default(),
+            origin,
+            events: Vec::new(),
+        }
+    }
+
+    /// Puts a body where it is; `awake` says whether it moves at once or sleeps until something touches or pushes it.
+    pub fn join(&mut self, index: usize, state: &RigidBody, awake: bool) {
+        let foundation = Foundation::get().expect(SOUND);
+        let body = &self.bodies[index];
+        let turns = state.inverse_moments != DVec3::ZERO;
+        let kind = if body.anchored { BodyType::Static } else { BodyType::Dynamic };
+        let at = single(state.position - self.origin);
+        let locks =
+            MotionLocks { angular_x: !turns, angular_y: !turns, angular_z: !turns, ..MotionLocks::default() };
+        let mut def = foundation
+            .body_def_builder()
+            .body_type(kind)
+            .position(at)
+            .rotation(quaternion(state.world_from_principal))
+            .sleep_threshold(SLEEP_SPEED)
+            .motion_locks(locks);
+        if !body.anchored {
+            def = def
+                .linear_velocity(single(state.velocity))
+                .angular_velocity(single(state.angular_velocity()))
+                .awake(awake);
+        }
+        let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
+        let surface = surface(foundation, body.friction, body.passes);
+        match &body.shape {
+            CollisionShape::Box(half) => {
+                let half = single(*half);
+                let hull = BoxHull::new(half.x, half.y, half.z).expect(SOUND);
+                self.world.create_hull_shape(id, &surface, &hull).expect(SOUND);
+            }
+            CollisionShape::Hulls(hulls) => {
+                for placed in hulls.iter().filter_map(|points| hull::hull_of(points)) {
+                    let (place, scale) = (placed.place, placed.scale);
+                    self.world
+                        .create_transformed_hull_shape(id, &surface, &placed.hull, place, scale)
+                        .expect(SOUND);
+                }
+            }
+        }
+        if !body.anchored {
+            self.world.set_body_mass_data(id, mass(state)).expect(SOUND);
+        }
+        self.ids[index] = Some(id);
+        self.index.insert(id, index);
+    }
+
+    /// Takes a body out.
+    pub fn leave(&mut self, index: usize) {
+        if let Some(id) = self.ids[index].take() {
+            self.bonds.forget(index);
+            self.index.remove(&id);
+            self.world.destroy_body(id).expect(SOUND);
+        }
+    }
+
+    /// Binds bodies that have joined.
+    pub fn bind(&mut self, bonds: &[Bond]) {
+        let fixed = |index: usize| self.bodies[index].anchored;
+        self.bonds.add(&mut self.world, &self.ids, fixed, bonds, self.origin);
+    }
+
+    /// Bonds that hold still.
+    pub fn bonds(&self) -> usize {
+        self.bonds.len()
+    }
+
+    /// Whether a body is here and awake.
+    pub fn is_awake(&self, index: usize) -> bool {
+        self.ids[index].is_some_and(|id| self.world.body_awake(id).expect(SOUND))
+    }
+
+    /// How many bodies are awake.
+    pub fn awake(&self) -> usize {
+        self.world.awake_body_count().expect(SOUND) as usize
+    }
+
+    /// Gives a body the velocities of its state, and wakes it.
+    pub fn drive(&mut self, index: usize, state: &RigidBody) {
+        let Some(id) = self.ids[index] else { return };
+        self.world.set_body_linear_velocity(id, single(state.velocity)).expect(SOUND);
+        self.world.set_body_angular_velocity(id, single(state.angular_velocity())).expect(SOUND);
+    }
+
+    /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
+    /// whether it fell asleep, its position [m], rotation, velocity [m/s] and angular velocity [rad/s].
+    pub fn step(&mut self, dt: f64, mut update: impl FnMut(Moved, DVec3, DQuat, DVec3, DVec3)) {
+        let substeps = libm::ceil(dt / SUBSTEP - 1e-9).max(1.0) as i32;
+        self.world.step(dt as f32, substeps).expect(SOUND);
+        self.bonds.yield_where_overloaded(&mut self.world);
+        self.world.body_events_into(&mut self.events).expect(SOUND);
+        for event in &self.events {
+            let Some(&index) = self.index.get(&event.body_id) else { continue };
+            let at = event.transform;
+            let position = DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into()) + self.origin;
+            let rotation = DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
+            let velocity = double(self.world.body_linear_velocity(event.body_id).expect(SOUND));
+            let spin = double(self.world.body_angular_velocity(event.body_id).expect(SOUND));
+            update(
+                Moved { index, asleep: event.fell_asleep },
+                position,
+                rotation.normalize(),
+                velocity,
+                spin,
+            );
+        }
+    }
+}
+
+fn surface(foundation: &Foundation, friction: f64, passes: Passes) -> ShapeDef {
+    let surface = foundation.shape_def_builder().friction(friction as f32).restitution(RESTITUTION as f32);
+    surface.density(1.0).update_body_mass(false).filter(passes.filter()).build().expect(SOUND)
+}
+
+fn mass(state: &RigidBody) -> MassData {
+    let mass = 1.0 / state.inverse_mass;
+    // A body that may not turn has no moments; its rotation is locked.
+    let fallback = 0.4 * mass * state.reach * state.reach;
+    let moment = |inverse: f64| if inverse > 0.0 { (1.0 / inverse) as f32 } else { fallback as f32 };
+    let [x, y, z] = state.inverse_moments.to_array().map(moment);
+    let inertia =
+        Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
+    MassData { mass: mass as f32, center: Vec3::ZERO, inertia }
+}
+
+fn single(v: DVec3) -> Vec3 {
+    Vec3::new(v.x as f32, v.y as f32, v.z as f32)
+}
+
+fn double(v: Vec3) -> DVec3 {
+    DVec3::new(v.x.into(), v.y.into(), v.z.into())
+}
+
+fn quaternion(q: DQuat) -> Quat {
+    Quat { v: Vec3::new(q.x as f32, q.y as f32, q.z as f32), s: q.w as f32 }
+}
