@@ -46,6 +46,9 @@ pub struct Simulation {
     frames: usize,
     frame_rate: f64,
     steps_per_frame: usize,
+    /// When the last load is over and the last piece of a pane free, and steps may be longer [s]; infinite where the
+    /// user sets the step, or where fronts come later.
+    calm: f64,
     /// Whether any body slid in the step before.
     slid: bool,
     warnings: Vec<String>,
@@ -146,6 +149,13 @@ impl Simulation {
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
         let targets = targets::aim(scene, &fields, shelters, panes.outlines(), observer)?;
         let steps_per_frame = targets::steps_per_frame(scene, &targets);
+        let calm = if scene.time.step.is_some() || scene.charges.len() > 1 {
+            f64::INFINITY
+        } else {
+            let holds = scene.bodies.iter().filter_map(|body| body.hold.as_ref()).map(|hold| hold.until);
+            let loads = targets.iter().map(|target| target.queue.end);
+            loads.chain(holds.filter(|until| until.is_finite())).fold(0.0, f64::max)
+        };
         let footings: Vec<Footing> = targets
             .iter()
             .zip(&scene.bodies)
@@ -216,6 +226,7 @@ impl Simulation {
             frames: scene.time.frames(),
             frame_rate: scene.time.frame_rate,
             steps_per_frame,
+            calm,
             slid: false,
             warnings,
         })

@@ -19,6 +19,8 @@ use crate::scene::{Body, Scene, Shape};
 
 /// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
 const TRAVEL: f64 = 0.25;
+/// Longest step of bodies that fly freely once all loads are over [s].
+const CALM_STEP: f64 = 5e-3;
 /// The shortest step for that [s].
 const SHORTEST_STEP: f64 = 1e-3;
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
@@ -131,8 +133,11 @@ fn bonds(scene: &Scene) -> Vec<Bond> {
 impl Simulation {
     /// Steps from the frame before to this one.
     pub(super) fn steps_to(&self, frame: usize) -> usize {
-        let Some(contacts) = &self.contacts else { return self.steps_per_frame };
         let (t0, t1) = ((frame - 1) as f64 / self.frame_rate, frame as f64 / self.frame_rate);
+        let Some(contacts) = &self.contacts else {
+            let calm = libm::ceil((t1 - t0) / CALM_STEP - 1e-9).max(1.0) as usize;
+            return if t0 < self.calm { self.steps_per_frame } else { calm.min(self.steps_per_frame) };
+        };
         let loaded = self.lives.iter().any(|life| life.is_stirred(t0, t1))
             || self.later.as_ref().is_some_and(|later| later.comes(t1, |i| self.bodies.get(i)));
         let short = (TRAVEL / contacts.fastest).clamp(SHORTEST_STEP, LONGEST_STEP);
