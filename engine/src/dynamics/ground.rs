@@ -25,7 +25,7 @@ pub const BOUNCE_SPEED: f64 = 0.3;
 const TOUCH: f64 = 2e-3;
 /// A corner that approaches slower than this has stopped [m/s].
 const STOPPED: f64 = 1e-3;
-const SWEEPS: usize = 16;
+const SWEEPS: usize = 6;
 /// Most corners a body may touch with.
 const MOST_CORNERS: usize = 32;
 /// A body that moves slower than this on three corners is as good as still [m/s].
