@@ -442,6 +442,8 @@ def engine_scene() -> _engine.Scene:
         occlusion=Occlusion(enabled=False).model_dump(),
         damping_factor=1.0,
         rotation_factor=1.0,
+        contacts=False,
+        until_rest=False,
     )
     scene.add_charge(
         mass=5.0,

