@@ -145,34 +145,47 @@ describe("the server", () => {
 });
 
 describe("the speed", () => {
-  test("of turning a knob, reported", async (context) => {
+  // The goals are 100 and 300 ms; a machine that draws in software beside other work is given ten times as much.
+  test("of turning a knob of the wall, reported", async (context) => {
     const page = await fresh();
     await showFrame(page, 10);
-    const rounds = [];
-    for (let round = 0; round < 12; round++) {
-      rounds.push(
-        await answer(page, () =>
-          page.evaluate((mass) => {
-            window.brisance.live.scene.charge[0].mass = mass;
-            window.brisance.live.ask(true);
-          }, 100 + round),
-        ),
-      );
-    }
-    const best = (key) => Math.min(...rounds.map((round) => round[key])).toFixed(1);
-    const middle = (key) =>
-      rounds
-        .map((round) => round[key])
-        .sort((a, b) => a - b)[6]
-        .toFixed(1);
-    for (const key of ["simulated", "answer", "decoded", "total"]) {
-      context.diagnostic(`${key}: best ${best(key)} ms, median ${middle(key)} ms`);
-    }
-    context.diagnostic(`message ${rounds[0].bytes} bytes`);
-    // The goal is 100 ms; a machine that draws in software beside other work is given ten times as much.
-    assert.ok(Number(best("total")) < 1000);
+    await report(context, page, () => undefined, { rounds: 12, most: 1000 });
+  });
+
+  test("of turning a knob of a window in a thousand pieces, reported", async (context) => {
+    const own = await serve("scenes/window.toml");
+    const page = await open(here.browser, own.address, SMALL);
+    const shatter = () => {
+      window.brisance.live.scene.window[0].pattern = { pieces: 1000 };
+    };
+    await report(context, page, shatter, { rounds: 6, most: 3000 });
+    await page.close();
+    own.stop();
   });
 });
+
+/** Turns the charge's mass a few times and tells how long it is until the new picture. */
+async function report(context, page, prepare, { rounds, most }) {
+  await page.evaluate(prepare);
+  const answers = [];
+  for (let round = 0; round < rounds; round++) {
+    answers.push(
+      await answer(page, () =>
+        page.evaluate((more) => {
+          window.brisance.live.scene.charge[0].mass += more;
+          window.brisance.live.ask(true);
+        }, round + 1),
+      ),
+    );
+  }
+  const sorted = (key) => answers.map((round) => round[key]).sort((a, b) => a - b);
+  for (const key of ["simulated", "answer", "decoded", "total"]) {
+    const [times, middle] = [sorted(key), Math.floor(rounds / 2)];
+    context.diagnostic(`${key}: best ${times[0].toFixed(1)} ms, median ${times[middle].toFixed(1)} ms`);
+  }
+  context.diagnostic(`message ${answers[0].bytes} bytes`);
+  assert.ok(sorted("total")[0] < most);
+}
 
 function contrast(first, second) {
   const light = (text) => {
