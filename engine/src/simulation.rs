@@ -2,7 +2,9 @@
 
 mod contacts;
 mod later;
+mod queue;
 mod shelter;
+mod steps;
 mod targets;
 mod window;
 
@@ -21,8 +23,10 @@ use crate::recording::{BodyFacts, Recording};
 use crate::scene::Scene;
 use contacts::Contacts;
 use later::Later;
+use queue::LoadQueue;
 pub use shelter::{Shelters, seen_from};
-use targets::{LoadQueue, Peaks, Shot, Target};
+use steps::steps_per_frame;
+use targets::{Peaks, Shot, Target};
 use window::Sheet;
 pub use window::{Fate, Pane, Panes, standing};
 
@@ -148,7 +152,7 @@ impl Simulation {
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
         let targets = targets::aim(scene, &fields, shelters, panes.outlines(), observer)?;
-        let steps_per_frame = targets::steps_per_frame(scene, &targets);
+        let steps_per_frame = steps_per_frame(scene, &targets);
         let calm = if scene.time.step.is_some() || scene.charges.len() > 1 {
             f64::INFINITY
         } else {
