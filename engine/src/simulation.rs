@@ -2,33 +2,35 @@
 
 mod contacts;
 mod later;
+mod life;
 mod queue;
 mod shelter;
 mod steps;
 mod targets;
 mod window;
+mod world;
 
 use std::ops::ControlFlow;
 
 use fearless_simd::Level;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::blast::{BlastField, Extension};
-use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
-use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, Hold, LANES, RigidBody, Support, Winds};
+use crate::dynamics::ground::{CALM_TIME, joint_friction};
+use crate::dynamics::standing::Place;
+use crate::dynamics::{Air, Bodies, Footing, LANES, RigidBody, Support};
 use crate::error::{Error, Result};
-use crate::recording::{BodyFacts, Recording};
+use crate::recording::Recording;
 use crate::scene::Scene;
 use contacts::Contacts;
 use later::Later;
-use queue::LoadQueue;
+use life::{Concern, Life, Phase};
 pub use shelter::{Shelters, seen_from};
 use steps::steps_per_frame;
-use targets::{Peaks, Shot, Target};
-use window::Sheet;
+use targets::Target;
 pub use window::{Fate, Pane, Panes, standing};
+use world::World;
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
@@ -56,72 +58,6 @@ pub struct Simulation {
     /// Whether any body slid in the step before.
     slid: bool,
     warnings: Vec<String>,
-}
-
-/// What of a step concerns other bodies; the gravest counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Concern {
-    /// Nothing.
-    Nothing,
-    /// A body slides on another, or stopped to.
-    Slides,
-    /// A body left its place or came to rest.
-    Settles,
-}
-
-/// What a body is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    /// It never moves.
-    Anchored,
-    /// In its place, still.
-    Standing,
-    /// In its place, pushed over its support.
-    Sliding,
-    /// Part of a pane, or in its frame.
-    Held,
-    /// On its own, with loads still to come.
-    Free,
-    /// On its own, all loads over.
-    Flying,
-}
-
-/// What all bodies share during a step.
-struct World {
-    ground: Option<Ground>,
-    /// Art direction: multiplies the turning that a piece takes along from its pane.
-    rotation: f64,
-    air: Air,
-    /// Instructions the processor has.
-    level: Level,
-}
-
-/// What is needed of a body beside its state, and less often.
-struct Life {
-    queue: LoadQueue,
-    place: Place,
-    corners: Box<[DVec3]>,
-    object_from_principal: DQuat,
-    /// Smaller extent seen from above at the start [m].
-    extent: f64,
-    /// Friction against the ground.
-    ground_friction: f64,
-    /// What holds it until it may move, and where it rests meanwhile.
-    hold: Option<Box<(Hold, (DVec3, DQuat))>>,
-    /// Of a piece of a pane, how its load follows it.
-    sheet: Option<Sheet>,
-    /// For how long it has been lying calmly [s].
-    calm: f64,
-    /// Impulse of friction in the last step [N s].
-    rubbed: DVec3,
-    launched: bool,
-    /// Whether it has ever left its place.
-    away: bool,
-    /// Per charge, what it alone does at most.
-    peaks: Vec<Peaks>,
-    /// What the last step asks to be settled between the bodies.
-    change: Option<Phase>,
-    facts: BodyFacts,
 }
 
 impl Simulation {
@@ -374,234 +310,6 @@ impl Simulation {
             let flips = before.map_or(rotation.w < 0.0, |b| b.dot(rotation) < 0.0);
             recording.orientations.push(if flips { -rotation } else { rotation });
         }
-    }
-}
-
-impl World {
-    /// One step of the bodies in a block: those in flight together, the others one by one. Returns the gravest of
-    /// what concerns others.
-    fn step_block<'a>(
-        &self,
-        block: &mut Block,
-        phases: &mut [Phase],
-        lives: &mut [Life],
-        carry: impl Fn(usize) -> &'a Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let flying = std::array::from_fn(|lane| phases.get(lane) == Some(&Phase::Flying));
-        if flying.contains(&true) {
-            block.fly(self.level, flying, self.air, t1 - t0);
-        }
-        if !flying.contains(&false) && self.ground.is_none_or(|ground| !ground.is_near(block.lowest())) {
-            return Concern::Nothing;
-        }
-        let mut gravest = Concern::Nothing;
-        for (lane, (phase, life)) in phases.iter_mut().zip(lives).enumerate() {
-            let carry = carry(lane);
-            if *phase == Phase::Standing && !life.queue.acts(t0, t1) && !carry.is_moved() {
-                life.rubbed = DVec3::ZERO;
-                continue;
-            }
-            if *phase == Phase::Held && !life.is_stirred(t0, t1) {
-                continue;
-            }
-            let mut body = block.get(lane);
-            gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
-            block.set(lane, &body);
-        }
-        gravest
-    }
-
-    /// One step of one body; what flies has already flown. Returns what of it concerns others.
-    fn step(
-        &self,
-        body: &mut RigidBody,
-        phase: &mut Phase,
-        life: &mut Life,
-        carry: &Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let concern = match phase {
-            Phase::Flying => return self.land(body, life, t1 - t0),
-            Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Held => self.hold(body, life, t0, t1),
-            Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
-            Phase::Anchored => {
-                if life.queue.acts(t0, t1) {
-                    self.load(body, life, t0, t1, false);
-                    body.velocity = DVec3::ZERO;
-                    body.angular_momentum = DVec3::ZERO;
-                }
-                Concern::Nothing
-            }
-        };
-        self.launch(body, phase, life, t1);
-        concern
-    }
-
-    /// Notes the speed with which a body's loads leave it.
-    fn launch(&self, body: &RigidBody, phase: &mut Phase, life: &mut Life, t1: f64) {
-        if !life.launched && life.queue.end <= t1 {
-            life.launched = true;
-            life.facts.launch_speed = life.facts.launch_speed.max(body.velocity.length());
-        }
-        if *phase == Phase::Free && life.launched {
-            *phase = Phase::Flying;
-        }
-    }
-
-    /// Puts panel loads and wind on a body's velocity and angular momentum.
-    fn load(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64, free: bool) {
-        let (mut impulse, mut angular) = life.queue.take(t0, t1, free);
-        if let Some(sheet) = life.sheet.filter(|_| free && impulse != DVec3::ZERO) {
-            (impulse, angular) = sheet.turn(body, impulse, angular, t1 - t0);
-        }
-        body.push(impulse, angular);
-        let winds = Winds { winds: &life.queue.winds, air: self.air };
-        life.facts.impulse += body.world_from_principal * impulse + body.blow(winds, t0, t1);
-    }
-
-    /// A step of a piece that is held, to its end or until it is free and on from there.
-    fn hold(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
-        let (hold, rest) = &**life.hold.as_ref().expect("it is held");
-        let until = hold.until;
-        let end = until.clamp(t0, t1);
-        let (impulse, _) = life.queue.take(t0, end, false);
-        let received = body.world_from_principal * impulse;
-        life.facts.impulse += received;
-        life.facts.held_back += received;
-        hold.place(body, rest, end);
-        if until > t1 {
-            return Concern::Nothing;
-        }
-        body.angular_momentum *= self.rotation;
-        life.facts.held_back -= body.velocity / body.inverse_mass;
-        life.facts.free_time = until;
-        life.hold = None;
-        if end < t1 {
-            self.fly_loaded(body, life, end, t1);
-        }
-        life.change = Some(Phase::Free);
-        Concern::Settles
-    }
-
-    fn stand(
-        &self,
-        body: &mut RigidBody,
-        phase: &mut Phase,
-        life: &mut Life,
-        carry: &Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let before = body.velocity;
-        self.load(body, life, t0, t1, false);
-        let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
-        life.rubbed = rubbed;
-        match outcome {
-            Outcome::Holds => {
-                if *phase == Phase::Sliding {
-                    *phase = Phase::Standing;
-                    life.facts.rest_time = t1;
-                }
-                if rubbed == DVec3::ZERO { Concern::Nothing } else { Concern::Slides }
-            }
-            Outcome::Slides => {
-                *phase = Phase::Sliding;
-                life.facts.rest_time = f64::NAN;
-                Concern::Slides
-            }
-            Outcome::Leaves => {
-                life.change = Some(Phase::Free);
-                Concern::Settles
-            }
-        }
-    }
-
-    fn fly_loaded(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
-        let dt = t1 - t0;
-        let before = body.velocity;
-        let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
-        body.velocity += half_fall;
-        self.load(body, life, t0, t1, true);
-        body.velocity += half_fall;
-        body.position += (before + body.velocity) * (0.5 * dt);
-        body.turn(dt);
-        self.land(body, life, dt)
-    }
-
-    /// Lets a body that has just moved meet the ground, and notices when it has come to rest.
-    #[inline]
-    fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> Concern {
-        let Some(ground) = self.ground.filter(|ground| ground.is_near(body.position.y - body.reach)) else {
-            return Concern::Nothing;
-        };
-        let calm = ground.meet(body, &life.corners, life.ground_friction);
-        life.calm = if calm { life.calm + dt } else { 0.0 };
-        if life.calm < CALM_TIME {
-            return Concern::Nothing;
-        }
-        life.change = Some(Phase::Standing);
-        Concern::Settles
-    }
-}
-
-impl Life {
-    /// `in_place` is the friction where the body stands at the start, `on_ground` against the ground.
-    fn new(target: Target, hold: Option<Hold>, in_place: f64, on_ground: f64) -> Self {
-        let (low, high) = target.bounds;
-        let extent = (high.x - low.x).min(high.z - low.z);
-        let sheet = hold.is_some().then(|| Sheet::new(&target));
-        Self {
-            place: Place::new(&target.body, extent, in_place),
-            launched: target.queue.end <= 0.0,
-            away: false,
-            peaks: target.peaks,
-            queue: target.queue,
-            corners: target.corners,
-            object_from_principal: target.object_from_principal,
-            extent,
-            ground_friction: on_ground,
-            sheet,
-            hold: hold.map(|mut hold| {
-                if hold.until == f64::NEG_INFINITY {
-                    (hold.closed, hold.until) = (target.facts.arrival_time, target.facts.arrival_time);
-                }
-                let rest = (target.body.position, target.body.world_from_principal);
-                Box::new((hold, rest))
-            }),
-            calm: 0.0,
-            rubbed: DVec3::ZERO,
-            change: None,
-            facts: target.facts,
-        }
-    }
-
-    /// Whether anything happens to a held piece between two times.
-    fn is_stirred(&self, t0: f64, t1: f64) -> bool {
-        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until <= t1;
-        self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
-    }
-
-    /// Takes a charge's loads anew.
-    fn strike(&mut self, charge: usize, shot: Shot) {
-        self.peaks[charge] = shot.peaks;
-        self.facts.peak_overpressure = self.peaks.iter().map(|p| p.overpressure).fold(0.0, f64::max);
-        self.facts.peak_load = self.peaks.iter().map(|p| p.load).fold(0.0, f64::max);
-        self.queue.replace(shot);
-        // It was aimed at the body as it lies now, not as it lay in its pane.
-        self.sheet = None;
-        self.launched = false;
-    }
-
-    fn finish(mut self, body: &RigidBody) -> BodyFacts {
-        if !self.launched {
-            self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
-        }
-        self.facts.final_velocity = body.velocity;
-        self.facts
     }
 }
 

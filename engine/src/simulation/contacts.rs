@@ -7,8 +7,9 @@
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use super::Simulation;
+use super::life::Phase;
 use super::targets::Target;
-use super::{Phase, Simulation};
 use crate::dynamics::contact::{
     Bond, CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes, REACH, bonds_of_bricks,
 };
@@ -283,7 +284,7 @@ impl Simulation {
             };
             life.queue.end <= now && !held && (still || matches!(phase, Phase::Anchored | Phase::Held))
         };
-        !self.later.as_ref().is_some_and(super::Later::awaited) && (0..self.lives.len()).all(over)
+        !self.later.as_ref().is_some_and(super::later::Later::awaited) && (0..self.lives.len()).all(over)
     }
 
     /// Notes when bodies came to rest, and says how many have not where the run was to last until all do.
