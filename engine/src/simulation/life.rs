@@ -102,6 +102,12 @@ impl Life {
         self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
     }
 
+    /// Whether its loads are over at a time [s] and nothing holds it that is yet to let go.
+    pub fn is_over(&self, now: f64) -> bool {
+        let awaits = self.hold.as_ref().is_some_and(|hold| hold.0.until.is_finite());
+        self.queue.end <= now && !awaits
+    }
+
     /// Takes a charge's loads anew.
     pub fn strike(&mut self, charge: usize, shot: Shot) {
         self.peaks[charge] = shot.peaks;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::life::{Concern, Life, Phase};
 use crate::dynamics::ground::{CALM_TIME, Ground};
 use crate::dynamics::standing::Outcome;
-use crate::dynamics::{Air, Block, Carry, GRAVITY, RigidBody, Winds};
+use crate::dynamics::{Air, Carry, GRAVITY, RigidBody, Winds};
 
 /// What all bodies share during a step.
 pub(super) struct World {
@@ -19,41 +19,6 @@ pub(super) struct World {
 }
 
 impl World {
-    /// One step of the bodies in a block: those in flight together, the others one by one. Returns the gravest of
-    /// what concerns others.
-    pub fn step_block<'a>(
-        &self,
-        block: &mut Block,
-        phases: &mut [Phase],
-        lives: &mut [Life],
-        carry: impl Fn(usize) -> &'a Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let flying = std::array::from_fn(|lane| phases.get(lane) == Some(&Phase::Flying));
-        if flying.contains(&true) {
-            block.fly(self.level, flying, self.air, t1 - t0);
-        }
-        if !flying.contains(&false) && self.ground.is_none_or(|ground| !ground.is_near(block.lowest())) {
-            return Concern::Nothing;
-        }
-        let mut gravest = Concern::Nothing;
-        for (lane, (phase, life)) in phases.iter_mut().zip(lives).enumerate() {
-            let carry = carry(lane);
-            if *phase == Phase::Standing && !life.queue.acts(t0, t1) && !carry.is_moved() {
-                life.rubbed = DVec3::ZERO;
-                continue;
-            }
-            if *phase == Phase::Held && !life.is_stirred(t0, t1) {
-                continue;
-            }
-            let mut body = block.get(lane);
-            gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
-            block.set(lane, &body);
-        }
-        gravest
-    }
-
     /// One step of one body; what flies has already flown. Returns what of it concerns others.
     pub fn step(
         &self,
