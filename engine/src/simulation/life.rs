@@ -19,8 +19,8 @@ pub(super) struct Life {
     pub extent: f64,
     /// Friction against the ground.
     pub ground_friction: f64,
-    /// What holds it until it may move, and where it rests meanwhile.
-    pub hold: Option<Box<(Hold, (DVec3, DQuat))>>,
+    /// What holds it until it may move.
+    pub held: Option<Box<Held>>,
     /// Of a piece of a pane, how its load follows it.
     pub sheet: Option<Sheet>,
     /// For how long it has been lying calmly [s].
@@ -35,6 +35,15 @@ pub(super) struct Life {
     /// What the last step asks to be settled between the bodies.
     pub change: Option<Phase>,
     pub facts: BodyFacts,
+}
+
+/// What holds a piece of a pane.
+pub(super) struct Held {
+    pub hold: Hold,
+    /// Place and rotation of the piece in the unbent pane.
+    pub rest: (DVec3, DQuat),
+    /// When it is free [s]; infinite for one that stays.
+    pub until: f64,
 }
 
 /// What a body is doing.
@@ -82,12 +91,10 @@ impl Life {
             extent,
             ground_friction: on_ground,
             sheet,
-            hold: hold.map(|mut hold| {
-                if hold.until == f64::NEG_INFINITY {
-                    (hold.closed, hold.until) = (target.facts.arrival_time, target.facts.arrival_time);
-                }
+            held: hold.map(|hold| {
                 let rest = (target.body.position, target.body.world_from_principal);
-                Box::new((hold, rest))
+                let until = hold.until.time(target.facts.arrival_time);
+                Box::new(Held { hold, rest, until })
             }),
             calm: 0.0,
             rubbed: DVec3::ZERO,
@@ -98,13 +105,13 @@ impl Life {
 
     /// Whether anything happens to a held piece between two times.
     pub fn is_stirred(&self, t0: f64, t1: f64) -> bool {
-        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until <= t1;
-        self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
+        let moves = |held: &Held| held.hold.moves(t0, t1) || held.until <= t1;
+        self.queue.acts(t0, t1) || self.held.as_deref().is_some_and(moves)
     }
 
     /// Whether its loads are over at a time [s] and nothing holds it that is yet to let go.
     pub fn is_over(&self, now: f64) -> bool {
-        let awaits = self.hold.as_ref().is_some_and(|hold| hold.0.until.is_finite());
+        let awaits = self.held.as_ref().is_some_and(|held| held.until.is_finite());
         self.queue.end <= now && !awaits
     }
 

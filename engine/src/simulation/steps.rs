@@ -1,6 +1,7 @@
 //! Into how many steps a frame is divided: fine ones while loads act, coarse ones once they are over.
 
 use super::targets::Target;
+use crate::dynamics::Until;
 use crate::scene::Scene;
 
 /// Steps the loading of a body is resolved with when the step is left to the engine.
@@ -50,7 +51,9 @@ fn calm(scene: &Scene, targets: &[Target]) -> f64 {
     if scene.time.step.is_some() || scene.charges.len() > 1 {
         return f64::INFINITY;
     }
-    let holds = scene.bodies.iter().filter_map(|body| body.hold.as_ref()).map(|hold| hold.until);
+    // A piece that waits for the front is free before its loads are over.
+    let known = |until| if let Until::Time(time) = until { Some(time) } else { None };
+    let holds = scene.bodies.iter().filter_map(|body| known(body.hold.as_ref()?.until));
     let loads = targets.iter().map(|target| target.queue.end);
-    loads.chain(holds.filter(|until| until.is_finite())).fold(0.0, f64::max)
+    loads.chain(holds).fold(0.0, f64::max)
 }

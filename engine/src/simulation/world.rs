@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 use glam::DVec3;
 
-use super::life::{Concern, Life, Phase};
+use super::life::{Concern, Held, Life, Phase};
 use crate::dynamics::ground::{CALM_TIME, Ground};
 use crate::dynamics::standing::Outcome;
 use crate::dynamics::{Air, Carry, GRAVITY, RigidBody, Winds};
@@ -71,8 +71,8 @@ impl World {
 
     /// A step of a piece that is held, to its end or until it is free and on from there.
     fn hold(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
-        let (hold, rest) = &**life.hold.as_ref().expect("it is held");
-        let until = hold.until;
+        let Held { hold, rest, until } = &**life.held.as_ref().expect("it is held");
+        let until = *until;
         let end = until.clamp(t0, t1);
         let (impulse, _) = life.queue.take(t0, end, false);
         let received = body.world_from_principal * impulse;
@@ -85,7 +85,7 @@ impl World {
         body.angular_momentum *= self.rotation;
         life.facts.held_back -= body.velocity / body.inverse_mass;
         life.facts.free_time = until;
-        life.hold = None;
+        life.held = None;
         if end < t1 {
             self.fly_loaded(body, life, end, t1);
         }
