@@ -130,12 +130,7 @@ def test_engine_flies_a_mesh_like_the_box_it_is(tmp_path: Path) -> None:
         mass=np.array([30.0]),
         buried=np.zeros((1, 6), bool),
         assembly=False,
-        anchored=False,
-        occludes=True,
-        can_rotate=True,
-        friction=0.6,
-        drag_coefficient=1.05,
-        lift_coefficient=None,
+        behaviour=body.obj.behaviour(),
     )
     recording = scene.simulate(threads=1)
     mesh, box = recording.impulse_n_s
