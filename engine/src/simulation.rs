@@ -6,6 +6,7 @@ mod later;
 mod life;
 mod motion;
 mod queue;
+mod range;
 mod shelter;
 mod state;
 mod steps;
@@ -60,6 +61,8 @@ impl Simulation {
         observer: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Self> {
         scene.validate()?;
+        motion::check(scene)?;
+        let first_pieces = panes.first_pieces(scene.bodies.len());
         let (scene, shelters) = panes.in_pieces(scene, shelters);
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
@@ -68,7 +71,7 @@ impl Simulation {
         warnings.extend_from_slice(&shelters.warnings);
         let steps = Steps::of(&scene, &targets);
         let motion = motion::motion(&scene, &targets, steps);
-        let state = State::new(&scene, fields, shelters, targets);
+        let state = State::new(&scene, fields, shelters, targets, first_pieces);
         if scene.ground.is_some() {
             warnings.extend(warnings::hanging(state.hanging()));
         }
@@ -85,7 +88,8 @@ impl Simulation {
     /// the run.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when the observer breaks off.
+    /// [`Error::Cancelled`] when the observer breaks off; [`Error::Overflow`] where numbers that are each possible lead
+    /// to a body at no finite place.
     pub fn run(mut self, observer: &mut dyn FnMut(usize, usize) -> ControlFlow<()>) -> Result<Recording> {
         let frames = self.time.frames();
         let mut recording = Recording { step: self.step, ..Recording::default() };
@@ -100,14 +104,14 @@ impl Simulation {
                 let steps = self.motion.steps(&self.state, now, next);
                 let dt = 1.0 / (self.time.frame_rate * steps as f64);
                 for step in (frame - 1) * steps..frame * steps {
-                    self.advance(step as f64 * dt, (step + 1) as f64 * dt);
+                    self.advance(step as f64 * dt, (step + 1) as f64 * dt)?;
                     if observer(frame, frames).is_break() {
                         return Err(Error::Cancelled);
                     }
                 }
                 now = next;
             }
-            self.record(now, &mut recording);
+            self.record(now, &mut recording)?;
             if self.time.until_rest && self.motion.rests(&self.state, now) {
                 break;
             }
@@ -116,29 +120,33 @@ impl Simulation {
         if self.time.until_rest {
             self.warnings.extend(warnings::moving(&self.state, now));
         }
-        recording.facts = self.state.facts();
+        recording.facts = self.state.facts(now)?;
         recording.warnings = self.warnings;
         Ok(recording)
     }
 
     /// One step: fronts that come in it, then all bodies.
-    fn advance(&mut self, t0: f64, t1: f64) {
+    fn advance(&mut self, t0: f64, t1: f64) -> Result<()> {
         self.state.meet_fronts(t1);
-        self.motion.advance(&mut self.state, t0, t1);
+        self.motion.advance(&mut self.state, t0, t1)
     }
 
     /// Writes down where all bodies are.
-    fn record(&self, now: f64, recording: &mut Recording) {
+    fn record(&self, now: f64, recording: &mut Recording) -> Result<()> {
         let before = recording.orientations.len().checked_sub(self.state.len());
         recording.times.push(now);
         for (index, (position, rotation)) in self.state.poses().enumerate() {
-            recording.positions.push(position.as_vec3());
-            let rotation = rotation.as_quat();
+            let (position, rotation) = (position.as_vec3(), rotation.as_quat());
+            if !(position.is_finite() && rotation.is_finite()) {
+                return Err(self.state.overflow(index, "its pose", now));
+            }
+            recording.positions.push(position);
             let flips = match before {
                 Some(first) => recording.orientations[first + index].dot(rotation) < 0.0,
                 None => rotation.w < 0.0,
             };
             recording.orientations.push(if flips { -rotation } else { rotation });
         }
+        Ok(())
     }
 }

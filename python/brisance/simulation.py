@@ -18,11 +18,12 @@ from brisance.errors import InputError
 from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits, most_pieces
 from brisance.model import AnyObject, Scene, Window
+from brisance.naming import naming
 from brisance.objects import pieces
 from brisance.piece import PieceSet
 from brisance.placement import check_charges, ground_warnings
 from brisance.result import Bodies, Result, Source
-from brisance.windows import broken_panes, naming, whole_pane
+from brisance.windows import broken_panes, whole_pane
 
 MAX_STEPS = 10**10
 """Steps of integration beyond which a run would take days, so that the step is surely a slip."""
@@ -73,7 +74,7 @@ def simulate(
     _check_step(scene)
     built = build(scene)
     ready = time.perf_counter()
-    with _Progress(progress is True) as bar, naming(built.windows):
+    with _Progress(progress is True) as bar, naming(built.names, built.windows):
         told = progress if callable(progress) else bar.update if progress else None
         recording = built.engine.simulate(
             threads=threads,

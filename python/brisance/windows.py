@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import numpy as np
 from numpy.typing import NDArray
 
 from brisance import _engine
-from brisance.errors import InputError
 from brisance.model import Scene, Window
 from brisance.piece import PieceSet
 from brisance.result import Pane
@@ -71,18 +66,3 @@ def _broken_at(pane: _engine.Pane, arrivals: NDArray[np.float64]) -> float:
     if pane.failure_time_s is not None:
         return pane.failure_time_s
     return float("inf") if pane.fate == "holds" else float(arrivals.min())
-
-
-@contextmanager
-def naming(windows: list[Window]) -> Iterator[None]:
-    """Put a window's name in the place of its number in what the engine refuses."""
-    try:
-        yield
-    except InputError as error:
-        found = re.match(r"window (\d+): ", str(error))
-        if found is None:
-            raise
-        number = int(found[1])
-        sentence = str(error)[found.end() :]
-        joint = " " if sentence.startswith("would ") else ": "
-        raise InputError(f"window.{number} ({windows[number].name}){joint}{sentence}.") from None

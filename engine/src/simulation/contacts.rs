@@ -17,6 +17,7 @@ use crate::dynamics::contact::{
 };
 use crate::dynamics::ground::CALM_SPEED;
 use crate::dynamics::{Bodies, RigidBody, Winds};
+use crate::error::Result;
 use crate::geometry::MassProperties;
 use crate::scene::{Body, Scene, Shape};
 
@@ -140,7 +141,7 @@ impl Motion for Contacts {
         if state.is_stirred(t0, t1) { steps.max(self.loaded) } else { steps }
     }
 
-    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) {
+    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) -> Result<()> {
         let mut freed = Vec::new();
         for index in 0..state.len() {
             match state.phases[index] {
@@ -149,20 +150,21 @@ impl Motion for Contacts {
                         freed.push(index);
                     }
                 }
-                _ => self.push(state, index, t0, t1),
+                _ => self.push(state, index, t0, t1)?,
             }
         }
         self.move_together(&mut state.bodies, t0, t1);
         for index in freed {
             state.phases[index] = Phase::Free;
             state.lives[index].change = None;
-            self.world.join(index, &state.bodies.get(index), true);
+            self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
             self.tracks[index] = Track { moved: t1, asleep: false, far: false };
             state.part(index, t1);
         }
         for index in 0..state.len() {
             self.account(state, index, t1);
         }
+        Ok(())
     }
 
     fn rests(&self, state: &State, now: f64) -> bool {
@@ -181,11 +183,11 @@ impl Motion for Contacts {
 
 impl Contacts {
     /// Puts loads, wind and the air's resistance on a body's velocity.
-    fn push(&mut self, state: &mut State, index: usize, t0: f64, t1: f64) {
+    fn push(&mut self, state: &mut State, index: usize, t0: f64, t1: f64) -> Result<()> {
         let (track, life, world) = (self.tracks[index], &mut state.lives[index], &state.world);
         let loaded = life.queue.acts(t0, t1);
         if track.asleep && !loaded {
-            return;
+            return Ok(());
         }
         let mut body = state.bodies.get(index);
         if track.far {
@@ -202,12 +204,13 @@ impl Contacts {
             let away = life.away;
             world.load(&mut body, life, t0, t1, away);
             if (body.velocity, body.angular_momentum) != before {
-                self.world.drive(index, &body);
+                self.world.drive(index, &sound(state, index, body, t1)?);
             }
         } else if body.velocity.length_squared() > FELT_SPEED * FELT_SPEED {
             body.blow(Winds { winds: &[], air: world.air }, t0, t1);
-            self.world.drive(index, &body);
+            self.world.drive(index, &sound(state, index, body, t1)?);
         }
+        Ok(())
     }
 
     /// Moves all bodies that are awake and takes over where they are.
@@ -256,6 +259,16 @@ impl Contacts {
             state.part(index, t1);
         }
         state.world.launch(&body, &mut state.phases[index], &mut state.lives[index], t1);
+    }
+}
+
+/// The state of a body as it is given to the contact world, which works in single precision.
+fn sound(state: &State, index: usize, body: RigidBody, now: f64) -> Result<RigidBody> {
+    let finite = |v: DVec3| v.as_vec3().is_finite();
+    if finite(body.position) && finite(body.velocity) && finite(body.angular_velocity()) {
+        Ok(body)
+    } else {
+        Err(state.overflow(index, "its motion", now))
     }
 }
 

@@ -13,6 +13,7 @@ use super::world::World;
 use crate::dynamics::ground::CALM_TIME;
 use crate::dynamics::standing::Place;
 use crate::dynamics::{Block, Carry, LANES};
+use crate::error::Result;
 
 /// Below this many bodies a step is not worth sharing among threads.
 const WORTH_SHARING: usize = 2048;
@@ -40,7 +41,7 @@ impl Motion for FreeFlight {
     }
 
     /// One step of every body, then what they change for each other.
-    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) {
+    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) -> Result<()> {
         let concern = step_all(state, t0, t1);
         if concern == Concern::Settles {
             settle(state, t1, &mut self.left);
@@ -51,6 +52,7 @@ impl Motion for FreeFlight {
             state.support.pass_on(|i| bodies.get(i).velocity, |i| lives[i].rubbed);
         }
         self.slid = slides;
+        Ok(())
     }
 
     fn rests(&self, state: &State, now: f64) -> bool {

@@ -126,11 +126,11 @@ impl Life {
         self.launched = false;
     }
 
-    pub fn finish(mut self, body: &RigidBody) -> BodyFacts {
+    /// Notes what is only known at the end of a run.
+    pub fn finish(&mut self, body: &RigidBody) {
         if !self.launched {
             self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
         }
         self.facts.final_velocity = body.velocity;
-        self.facts
     }
 }

@@ -5,9 +5,11 @@
 
 use super::contacts::Contacts;
 use super::free_flight::FreeFlight;
+use super::range;
 use super::state::State;
 use super::steps::Steps;
 use super::targets::Target;
+use crate::error::Result;
 use crate::scene::Scene;
 
 /// A way to move the bodies of a run.
@@ -16,13 +18,25 @@ pub(super) trait Motion {
     fn steps(&self, state: &State, t0: f64, t1: f64) -> usize;
 
     /// Moves all bodies from `t0` to `t1` [s].
-    fn advance(&mut self, state: &mut State, t0: f64, t1: f64);
+    ///
+    /// # Errors
+    /// [`Error::Overflow`](crate::Error::Overflow) where it cannot go on with a body that is at no finite place; what
+    /// can, leaves that to whoever looks at the poses.
+    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) -> Result<()>;
 
     /// Whether all loads are over at `now` [s] and every body rests.
     fn rests(&self, state: &State, now: f64) -> bool;
 
     /// Notes what is only known at the end of a run, at `now` [s]: when bodies came to rest for good.
     fn conclude(&self, state: &mut State, now: f64);
+}
+
+/// Refuses a scene whose numbers are beyond the way in which its bodies move.
+///
+/// # Errors
+/// [`Error::Malformed`](crate::Error::Malformed) that names the body.
+pub(super) fn check(scene: &Scene) -> Result<()> {
+    if scene.dynamics.contacts { range::check(scene) } else { Ok(()) }
 }
 
 /// The way in which the bodies of a scene move, as it asks for.

@@ -11,6 +11,7 @@ use super::world::World;
 use crate::blast::BlastField;
 use crate::dynamics::ground::joint_friction;
 use crate::dynamics::{Air, Bodies, Footing, RigidBody, Support};
+use crate::error::{Error, Result};
 use crate::recording::BodyFacts;
 use crate::scene::Scene;
 
@@ -23,11 +24,21 @@ pub(super) struct State {
     /// Fronts that come after bodies have left their places.
     pub later: Option<Later>,
     pub world: World,
+    /// Of each pane, the number of its first piece; bodies before that are no pieces of panes.
+    panes: Vec<usize>,
 }
 
 impl State {
     /// The bodies of a scene as they stand before the blast.
-    pub fn new(scene: &Scene, fields: Vec<BlastField>, shelters: Shelters, targets: Vec<Target>) -> Self {
+    ///
+    /// `panes` are the numbers of the first pieces of panes.
+    pub fn new(
+        scene: &Scene,
+        fields: Vec<BlastField>,
+        shelters: Shelters,
+        targets: Vec<Target>,
+        panes: Vec<usize>,
+    ) -> Self {
         let footings: Vec<Footing> = targets
             .iter()
             .zip(&scene.bodies)
@@ -72,6 +83,7 @@ impl State {
                 air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
                 level: Level::new(),
             },
+            panes,
         }
     }
 
@@ -89,10 +101,27 @@ impl State {
         })
     }
 
-    /// What has become of each body.
-    pub fn facts(self) -> Vec<BodyFacts> {
-        let Self { bodies, lives, .. } = self;
-        lives.into_iter().enumerate().map(|(index, life)| life.finish(&bodies.get(index))).collect()
+    /// What has become of each body by `now` [s], the end of the run.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`].
+    pub fn facts(&mut self, now: f64) -> Result<Vec<BodyFacts>> {
+        for (index, life) in self.lives.iter_mut().enumerate() {
+            life.finish(&self.bodies.get(index));
+            if !life.facts.is_finite() {
+                return Err(self.overflow(index, "its load", now));
+            }
+        }
+        Ok(self.lives.iter().map(|life| life.facts).collect())
+    }
+
+    /// What is wrong with a body of which something is not a finite number any more at a time [s].
+    pub fn overflow(&self, index: usize, what: &'static str, time: f64) -> Error {
+        let whose = match self.panes.partition_point(|&first| first <= index) {
+            0 => format!("body {index}"),
+            after => format!("a piece of window {}", after - 1),
+        };
+        Error::Overflow { whose, what, time }
     }
 
     /// How many bodies stand on nothing.

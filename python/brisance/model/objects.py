@@ -76,7 +76,7 @@ class SceneObject(Model):
         return own_x, own_y, own_z
 
     def behaviour(self) -> dict[str, bool | float | None]:
-        """How its pieces behave, as the engine takes it: the keys that every object has, whatever its shape."""
+        """How its pieces behave, as the engine takes it: by the keys that every object has."""
         return {
             "anchored": self.anchored,
             "occludes": self.occludes,

@@ -247,7 +247,7 @@ def _cells(rings: list[Array]) -> tuple[Array, list[list[int]]]:
         ends = np.cumsum(pattern.ring_sizes)
         cells = np.split(pattern.ring_vertices.astype(int), ends[:-1])
         return pattern.vertices, [cell.tolist() for cell in cells]
-    across, up = (max(2, round(CELLS * side / size.max())) for side in size)
+    across, up = (max(2, round(CELLS * (side / size.max()))) for side in size)
     x, y = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, up + 1))
     corners = low + np.column_stack([x.ravel(), y.ravel()]) * size
     first = [row * (across + 1) + column for row in range(up) for column in range(across)]

@@ -167,6 +167,16 @@ impl Panes {
         (Scene { bodies, windows: Vec::new(), ..scene.clone() }, shelters.with_pieces(count, places))
     }
 
+    /// Of each pane, the number of its first piece in a scene with so many other bodies.
+    pub(super) fn first_pieces(&self, bodies: usize) -> Vec<usize> {
+        let mut next = bodies;
+        let first = |pane: &Pane| {
+            next += pane.holds.len();
+            next - pane.holds.len()
+        };
+        self.panes.iter().map(first).collect()
+    }
+
     pub(super) fn outlines(&self) -> Option<&Outlines> {
         (!self.panes.is_empty()).then_some(&self.outlines)
     }
