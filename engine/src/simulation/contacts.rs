@@ -45,6 +45,10 @@ pub(super) struct Contacts {
     fastest: f64,
     /// Middle of the scene [m].
     origin: DVec3,
+    /// Bounds of what glass sits in [m].
+    frames: Vec<(DVec3, DVec3)>,
+    /// Free pieces of panes that have yet to leave their frames.
+    leaving: Vec<usize>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +86,9 @@ impl Contacts {
                 passes: passes(body, target),
             })
             .collect();
+        let holds_glass = |&(body, _): &(&ContactBody, &Target)| body.passes == Passes::Glass;
+        let frames =
+            bodies.iter().zip(targets).filter(holds_glass).map(|(_, target)| target.bounds).collect();
         let bounds = targets.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), target| {
             (low.min(target.bounds.0), high.max(target.bounds.1))
         });
@@ -94,7 +101,15 @@ impl Contacts {
         }
         world.bind(&bonds(scene));
         let track = Track { moved: 0.0, asleep: true, far: false };
-        Self { world, tracks: vec![track; targets.len()], loaded, fastest: 0.0, origin }
+        Self {
+            world,
+            tracks: vec![track; targets.len()],
+            loaded,
+            fastest: 0.0,
+            origin,
+            frames,
+            leaving: Vec::new(),
+        }
     }
 }
 
@@ -159,8 +174,10 @@ impl Motion for Contacts {
             state.lives[index].change = None;
             self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
             self.tracks[index] = Track { moved: t1, asleep: false, far: false };
+            self.leaving.push(index);
             state.part(index, t1);
         }
+        self.leave_frames(state);
         for index in 0..state.len() {
             self.account(state, index, t1);
         }
@@ -244,6 +261,20 @@ impl Contacts {
         }
     }
 
+    /// Pieces of panes meet the frame they sat in as soon as they are clear of it: not before, since the two overlap
+    /// while the piece is in the rebate, and would be driven apart.
+    fn leave_frames(&mut self, state: &State) {
+        let (frames, world) = (&self.frames, &mut self.world);
+        self.leaving.retain(|&index| {
+            let (body, corners) = (state.bodies.get(index), &state.lives[index].corners);
+            let is_in = frames.iter().any(|&frame| reaches(&body, corners, frame));
+            if !is_in {
+                world.meet_all(index);
+            }
+            is_in
+        });
+    }
+
     /// Notes what a step has made of a body.
     fn account(&self, state: &mut State, index: usize, t1: f64) {
         let (phase, life) = (state.phases[index], &state.lives[index]);
@@ -260,6 +291,21 @@ impl Contacts {
         }
         state.world.launch(&body, &mut state.phases[index], &mut state.lives[index], t1);
     }
+}
+
+/// Whether the bounds of a body with these corners in its principal axes [m] overlap others.
+fn reaches(body: &RigidBody, corners: &[DVec3], (low, high): (DVec3, DVec3)) -> bool {
+    let nearest = body.position.clamp(low, high);
+    if body.position.distance_squared(nearest) > body.reach * body.reach {
+        return false;
+    }
+    let (from, to) = corners
+        .iter()
+        .map(|&corner| body.position + body.world_from_principal * corner)
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(from, to), corner| {
+            (from.min(corner), to.max(corner))
+        });
+    from.cmplt(high).all() && to.cmpgt(low).all()
 }
 
 /// The state of a body as it is given to the contact world, which works in single precision.
