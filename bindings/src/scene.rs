@@ -14,7 +14,7 @@ use engine::occlusion::{Attenuation, Per, Settings as Occlusion, Shelter};
 use engine::scene::{Body, Dynamics, Loading, Scene as EngineScene, Shape, Time};
 use engine::simulation::{Shelters, seen_from, standing};
 use engine::window::{Release, Window};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -62,6 +62,39 @@ impl OcclusionArgument {
         let settings = Occlusion { enabled: self.enabled, resolution: self.resolution, per, attenuation };
         settings.validate().map_err(refused)?;
         Ok(settings)
+    }
+}
+
+/// How the pieces of an object behave: what all objects of a scene may say, whatever their shape.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct BehaviourArgument {
+    anchored: bool,
+    occludes: bool,
+    can_rotate: bool,
+    friction: f64,
+    drag_coefficient: f64,
+    lift_coefficient: Option<f64>,
+}
+
+impl BehaviourArgument {
+    /// A body that behaves so, by itself.
+    fn body(&self, shape: Shape, position: DVec3, orientation: DQuat, mass: f64) -> Body {
+        Body {
+            shape,
+            position,
+            orientation,
+            mass,
+            assembly: None,
+            anchored: self.anchored,
+            occludes: self.occludes,
+            can_rotate: self.can_rotate,
+            friction: self.friction,
+            drag_coefficient: self.drag_coefficient,
+            lift_coefficient: self.lift_coefficient,
+            surround: 0.0,
+            hold: None,
+        }
     }
 }
 
@@ -155,8 +188,7 @@ impl Scene {
     /// Adds n boxes and returns the number of their assembly, if they are one: sizes (n, 3), positions (n, 3),
     /// orientations (n, 4) w first, masses (n,), buried faces (n, 6). `mortar` binds those of an assembly: tensile and
     /// shear strength [Pa] and the width of the joints [m].
-    #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, anchored, occludes, can_rotate,
-        friction, drag_coefficient, lift_coefficient, mortar=None))]
+    #[pyo3(signature = (*, size, position, orientation, mass, buried, assembly, behaviour, mortar=None))]
     #[allow(clippy::too_many_arguments)]
     fn add_boxes(
         &mut self,
@@ -166,12 +198,7 @@ impl Scene {
         mass: PyReadonlyArray1<'_, f64>,
         buried: PyReadonlyArray2<'_, bool>,
         assembly: bool,
-        anchored: bool,
-        occludes: bool,
-        can_rotate: bool,
-        friction: f64,
-        drag_coefficient: f64,
-        lift_coefficient: Option<f64>,
+        behaviour: BehaviourArgument,
         mortar: Option<(f64, f64, f64)>,
     ) -> PyResult<Option<u32>> {
         let sizes = vectors(&size, "size")?;
@@ -192,28 +219,15 @@ impl Scene {
         let buried = buried.as_array();
         for i in 0..sizes.len() {
             let flags = std::array::from_fn(|face| buried[[i, face]]);
-            self.scene.bodies.push(Body {
-                shape: Shape::Box { size: sizes[i], buried: flags },
-                position: positions[i],
-                orientation: orientations[i],
-                mass: masses[i],
-                assembly: group,
-                anchored,
-                occludes,
-                can_rotate,
-                friction,
-                drag_coefficient,
-                lift_coefficient,
-                surround: 0.0,
-                hold: None,
-            });
+            let shape = Shape::Box { size: sizes[i], buried: flags };
+            let body = behaviour.body(shape, positions[i], orientations[i], masses[i]);
+            self.scene.bodies.push(Body { assembly: group, ..body });
         }
         Ok(group)
     }
 
     /// Adds one body with the shape of a closed mesh: vertices (v, 3) in its own frame, triangles (t, 3).
-    #[pyo3(signature = (*, vertices, triangles, position, orientation, mass, anchored, occludes, can_rotate,
-        friction, drag_coefficient, lift_coefficient))]
+    #[pyo3(signature = (*, vertices, triangles, position, orientation, mass, behaviour))]
     #[allow(clippy::too_many_arguments)]
     fn add_mesh(
         &mut self,
@@ -222,36 +236,19 @@ impl Scene {
         position: [f64; 3],
         orientation: [f64; 4],
         mass: f64,
-        anchored: bool,
-        occludes: bool,
-        can_rotate: bool,
-        friction: f64,
-        drag_coefficient: f64,
-        lift_coefficient: Option<f64>,
+        behaviour: BehaviourArgument,
     ) -> PyResult<()> {
-        self.scene.bodies.push(Body {
-            shape: Shape::Mesh(Arc::new(mesh(&vertices, &triangles)?)),
-            position: DVec3::from_array(position),
-            orientation: quaternion(orientation),
-            mass,
-            assembly: None,
-            anchored,
-            occludes,
-            can_rotate,
-            friction,
-            drag_coefficient,
-            lift_coefficient,
-            surround: 0.0,
-            hold: None,
-        });
+        let shape = Shape::Mesh(Arc::new(mesh(&vertices, &triangles)?));
+        let (position, orientation) = (DVec3::from_array(position), quaternion(orientation));
+        self.scene.bodies.push(behaviour.body(shape, position, orientation, mass));
         Ok(())
     }
 
-    /// Adds a pane. `outline` is a list of rings (n, 2) in its own frame [m]; `recipe` says how it breaks, and where it
-    /// gives neither `pieces` nor `critical_length` the load does. `assembly`: the number of what it stands together
-    /// with; left out, it stands alone.
-    #[pyo3(signature = (*, outline, thickness, position, orientation, strength, may_break, recipe, release, bite,
-        facade, assembly, occludes, can_rotate, friction, drag_coefficient, lift_coefficient))]
+    /// Adds a pane, which breaks unless it is anchored. `outline` is a list of rings (n, 2) in its own frame [m];
+    /// `recipe` says how it breaks, and where it gives neither `pieces` nor `critical_length` the load does. `assembly`:
+    /// the number of what it stands together with; left out, it stands alone.
+    #[pyo3(signature = (*, outline, thickness, position, orientation, strength, recipe, release, bite, facade, assembly,
+        behaviour))]
     #[allow(clippy::too_many_arguments)]
     fn add_window(
         &mut self,
@@ -260,17 +257,12 @@ impl Scene {
         position: [f64; 3],
         orientation: [f64; 4],
         strength: f64,
-        may_break: bool,
         recipe: RecipeArgument<'_>,
         release: &str,
         bite: Option<f64>,
         facade: f64,
         assembly: Option<u32>,
-        occludes: bool,
-        can_rotate: bool,
-        friction: f64,
-        drag_coefficient: f64,
-        lift_coefficient: Option<f64>,
+        behaviour: BehaviourArgument,
     ) -> PyResult<()> {
         let releases = [("as it cracks", Release::AsItCracks), ("all at once", Release::AllAtOnce)];
         let (recipe, fine) = recipe.into_engine()?;
@@ -283,18 +275,18 @@ impl Scene {
             orientation: quaternion(orientation),
             material: GLASS,
             strength,
-            may_break,
+            may_break: !behaviour.anchored,
             recipe,
             by_load: !fine,
             release: crate::blast::choose("release", release, &releases)?,
             bite,
             facade,
             assembly: Some(assembly),
-            occludes,
-            can_rotate,
-            friction,
-            drag_coefficient,
-            lift_coefficient,
+            occludes: behaviour.occludes,
+            can_rotate: behaviour.can_rotate,
+            friction: behaviour.friction,
+            drag_coefficient: behaviour.drag_coefficient,
+            lift_coefficient: behaviour.lift_coefficient,
         };
         window.validate().map_err(refused)?;
         self.scene.windows.push(window);

@@ -16,6 +16,19 @@ pub enum Error {
     /// A table or mesh does not have the shape the engine needs.
     #[error("{0}")]
     Malformed(String),
+    /// Each number of the scene has a meaning by itself, but what they lead to is beyond what numbers can hold.
+    #[error(
+        "{whose}: {what} is not finite at {time} s; bring the largest and smallest numbers of the scene nearer to real \
+         ones"
+    )]
+    Overflow {
+        /// The body, as "body 3" or "a piece of window 0".
+        whose: String,
+        /// What of it, in the user's words.
+        what: &'static str,
+        /// When [s].
+        time: f64,
+    },
     /// The caller asked the simulation to stop.
     #[error("stopped before the end")]
     Cancelled,

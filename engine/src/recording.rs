@@ -52,3 +52,20 @@ pub struct BodyFacts {
     /// When it came to rest for good [s]; 0 if it never moved, not a number if it still moves.
     pub rest_time: f64,
 }
+
+impl BodyFacts {
+    /// Whether all are finite that cannot be otherwise: a front may never come, and a piece never be free or at rest.
+    pub fn is_finite(&self) -> bool {
+        let numbers = [
+            self.mass,
+            self.frontal_area,
+            self.distance,
+            self.peak_overpressure,
+            self.peak_load,
+            self.attenuation,
+            self.launch_speed,
+        ];
+        let vectors = [self.impulse, self.held_back, self.final_velocity];
+        numbers.into_iter().all(f64::is_finite) && vectors.into_iter().all(DVec3::is_finite)
+    }
+}

@@ -1,123 +1,40 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
 mod contacts;
+mod free_flight;
 mod later;
+mod life;
+mod motion;
+mod queue;
+mod range;
 mod shelter;
+mod state;
+mod steps;
 mod targets;
+mod warnings;
 mod window;
+mod world;
 
 use std::ops::ControlFlow;
 
-use fearless_simd::Level;
-use glam::{DQuat, DVec3};
-use rayon::prelude::*;
-
-use crate::blast::{BlastField, Extension};
-use crate::dynamics::ground::{CALM_TIME, Ground, joint_friction};
-use crate::dynamics::standing::{Outcome, Place};
-use crate::dynamics::{Air, Block, Bodies, Carry, Footing, GRAVITY, Hold, LANES, RigidBody, Support, Winds};
+use crate::blast::BlastField;
 use crate::error::{Error, Result};
-use crate::recording::{BodyFacts, Recording};
-use crate::scene::Scene;
-use contacts::Contacts;
-use later::Later;
+use crate::recording::Recording;
+use crate::scene::{Scene, Time};
+use motion::Motion;
 pub use shelter::{Shelters, seen_from};
-use targets::{LoadQueue, Peaks, Shot, Target};
-use window::Sheet;
+use state::State;
+use steps::Steps;
 pub use window::{Fate, Pane, Panes, standing};
-
-/// Below this many bodies a step is not worth sharing among threads.
-const WORTH_SHARING: usize = 2048;
-/// Blocks of bodies a thread takes at once.
-const CHUNK: usize = 32;
 
 /// A scene made ready to run.
 pub struct Simulation {
-    bodies: Bodies,
-    phases: Vec<Phase>,
-    lives: Vec<Life>,
-    support: Support,
-    /// Fronts that come after bodies have left their places.
-    later: Option<Later>,
-    /// Bodies that touch; `None` where each moves for itself and meets the ground alone.
-    contacts: Option<Contacts>,
-    world: World,
-    until_rest: bool,
-    frames: usize,
-    frame_rate: f64,
-    steps_per_frame: usize,
-    /// When the last load is over and the last piece of a pane free, and steps may be longer [s]; infinite where the
-    /// user sets the step, or where fronts come later.
-    calm: f64,
-    /// Whether any body slid in the step before.
-    slid: bool,
+    state: State,
+    /// How the bodies move.
+    motion: Box<dyn Motion>,
+    time: Time,
+    step: f64,
     warnings: Vec<String>,
-}
-
-/// What of a step concerns other bodies; the gravest counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Concern {
-    /// Nothing.
-    Nothing,
-    /// A body slides on another, or stopped to.
-    Slides,
-    /// A body left its place or came to rest.
-    Settles,
-}
-
-/// What a body is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    /// It never moves.
-    Anchored,
-    /// In its place, still.
-    Standing,
-    /// In its place, pushed over its support.
-    Sliding,
-    /// Part of a pane, or in its frame.
-    Held,
-    /// On its own, with loads still to come.
-    Free,
-    /// On its own, all loads over.
-    Flying,
-}
-
-/// What all bodies share during a step.
-struct World {
-    ground: Option<Ground>,
-    /// Art direction: multiplies the turning that a piece takes along from its pane.
-    rotation: f64,
-    air: Air,
-    /// Instructions the processor has.
-    level: Level,
-}
-
-/// What is needed of a body beside its state, and less often.
-struct Life {
-    queue: LoadQueue,
-    place: Place,
-    corners: Box<[DVec3]>,
-    object_from_principal: DQuat,
-    /// Smaller extent seen from above at the start [m].
-    extent: f64,
-    /// Friction against the ground.
-    ground_friction: f64,
-    /// What holds it until it may move, and where it rests meanwhile.
-    hold: Option<Box<(Hold, (DVec3, DQuat))>>,
-    /// Of a piece of a pane, how its load follows it.
-    sheet: Option<Sheet>,
-    /// For how long it has been lying calmly [s].
-    calm: f64,
-    /// Impulse of friction in the last step [N s].
-    rubbed: DVec3,
-    launched: bool,
-    /// Whether it has ever left its place.
-    away: bool,
-    /// Per charge, what it alone does at most.
-    peaks: Vec<Peaks>,
-    /// What the last step asks to be settled between the bodies.
-    change: Option<Phase>,
-    facts: BodyFacts,
 }
 
 impl Simulation {
@@ -144,490 +61,92 @@ impl Simulation {
         observer: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Self> {
         scene.validate()?;
-        let (scene, shelters) = &panes.in_pieces(scene, shelters);
+        motion::check(scene)?;
+        let first_pieces = panes.first_pieces(scene.bodies.len());
+        let (scene, shelters) = panes.in_pieces(scene, shelters);
         let fields: Vec<BlastField> =
             scene.charges.iter().map(|charge| BlastField::new(charge, &scene.air)).collect::<Result<_>>()?;
-        let targets = targets::aim(scene, &fields, shelters, panes.outlines(), observer)?;
-        let steps_per_frame = targets::steps_per_frame(scene, &targets);
-        let calm = if scene.time.step.is_some() || scene.charges.len() > 1 {
-            f64::INFINITY
-        } else {
-            let holds = scene.bodies.iter().filter_map(|body| body.hold.as_ref()).map(|hold| hold.until);
-            let loads = targets.iter().map(|target| target.queue.end);
-            loads.chain(holds.filter(|until| until.is_finite())).fold(0.0, f64::max)
-        };
-        let footings: Vec<Footing> = targets
-            .iter()
-            .zip(&scene.bodies)
-            .map(|(target, body)| Footing {
-                low: target.bounds.0,
-                high: target.bounds.1,
-                centre: target.body.position,
-                mass: body.mass,
-                anchored: body.anchored,
-                held: body.hold.is_some(),
-            })
-            .collect();
-        let height = scene.ground.map(|g| g.height);
-        let support = Support::new(&footings, height);
-        let mut warnings = reach_warnings(&targets, fields.len());
+        let targets = targets::aim(&scene, &fields, &shelters, panes.outlines(), observer)?;
+        let mut warnings = warnings::reach(&targets, fields.len());
         warnings.extend_from_slice(&shelters.warnings);
+        let steps = Steps::of(&scene, &targets);
+        let motion = motion::motion(&scene, &targets, steps);
+        let state = State::new(&scene, fields, shelters, targets, first_pieces);
         if scene.ground.is_some() {
-            let anchored = |index: &usize| scene.bodies[*index].anchored;
-            warnings.extend(hanging_warning(
-                (0..footings.len())
-                    .filter(|&i| !anchored(&i) && !footings[i].held && support.hangs(i))
-                    .count(),
-            ));
+            warnings.extend(warnings::hanging(state.hanging()));
         }
-        let bodies: Vec<RigidBody> = targets.iter().map(|target| target.body).collect();
-        let phases = footings
-            .iter()
-            .map(|f| match (f.anchored, f.held) {
-                (true, _) => Phase::Anchored,
-                (false, true) => Phase::Held,
-                (false, false) => Phase::Standing,
-            })
-            .collect();
-        let contacts = scene.dynamics.contacts.then(|| Contacts::new(scene, &targets));
-        let lives = targets
-            .into_iter()
-            .zip(&scene.bodies)
-            .enumerate()
-            .map(|(index, (target, body))| {
-                let on_ground = joint_friction(body.friction, scene.ground.map_or(0.0, |g| g.friction));
-                let on_carriers = support.carriers(index).iter().map(|&(carrier, share)| {
-                    share * joint_friction(body.friction, scene.bodies[carrier].friction)
-                });
-                let in_place = if support.is_grounded(index) {
-                    on_ground
-                } else if support.hangs(index) {
-                    body.friction
-                } else {
-                    on_carriers.sum()
-                };
-                Life::new(target, body.hold.clone(), in_place, on_ground)
-            })
-            .collect();
-        Ok(Self {
-            bodies: Bodies::new(&bodies),
-            phases,
-            lives,
-            support,
-            later: Later::new(scene, fields, shelters.clone()),
-            world: World {
-                ground: scene.ground,
-                rotation: scene.dynamics.rotation_factor,
-                air: Air { density: scene.air.density(), damping: scene.dynamics.damping_factor },
-                level: Level::new(),
-            },
-            contacts,
-            until_rest: scene.time.until_rest,
-            frames: scene.time.frames(),
-            frame_rate: scene.time.frame_rate,
-            steps_per_frame,
-            calm,
-            slid: false,
-            warnings,
-        })
+        let step = 1.0 / (scene.time.frame_rate * steps.loaded as f64);
+        Ok(Self { state, motion, time: scene.time, step, warnings })
     }
 
-    /// The simulation step [s]: a whole number of them makes a frame.
+    /// The simulation step while loads act [s]: a whole number of them makes a frame.
     pub fn step(&self) -> f64 {
-        1.0 / (self.frame_rate * self.steps_per_frame as f64)
+        self.step
     }
 
     /// Runs to the end. `observer` hears after each step how many frames are done, and of how many, and may stop
     /// the run.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when the observer breaks off.
+    /// [`Error::Cancelled`] when the observer breaks off; [`Error::Overflow`] where numbers that are each possible lead
+    /// to a body at no finite place.
     pub fn run(mut self, observer: &mut dyn FnMut(usize, usize) -> ControlFlow<()>) -> Result<Recording> {
-        let mut recording = Recording { step: self.step(), ..Recording::default() };
-        if !self.until_rest {
-            recording.positions.reserve_exact(self.frames * self.bodies.len());
-            recording.orientations.reserve_exact(self.frames * self.bodies.len());
+        let frames = self.time.frames();
+        let mut recording = Recording { step: self.step, ..Recording::default() };
+        if !self.time.until_rest {
+            recording.positions.reserve_exact(frames * self.state.len());
+            recording.orientations.reserve_exact(frames * self.state.len());
         }
-        let mut left = Vec::new();
-        for frame in 0..self.frames {
+        let mut now = 0.0;
+        for frame in 0..frames {
             if frame > 0 {
-                let steps = self.steps_to(frame);
-                let dt = 1.0 / (self.frame_rate * steps as f64);
+                let next = frame as f64 / self.time.frame_rate;
+                let steps = self.motion.steps(&self.state, now, next);
+                let dt = 1.0 / (self.time.frame_rate * steps as f64);
                 for step in (frame - 1) * steps..frame * steps {
-                    self.advance(step as f64 * dt, (step + 1) as f64 * dt, &mut left);
-                    if observer(frame, self.frames).is_break() {
+                    self.advance(step as f64 * dt, (step + 1) as f64 * dt)?;
+                    if observer(frame, frames).is_break() {
                         return Err(Error::Cancelled);
                     }
                 }
+                now = next;
             }
-            self.record(frame, &mut recording);
-            if self.until_rest && self.rests(frame as f64 / self.frame_rate) {
+            self.record(now, &mut recording)?;
+            if self.time.until_rest && self.motion.rests(&self.state, now) {
                 break;
             }
         }
-        self.conclude(recording.times.last().copied().unwrap_or(0.0));
-        let bodies = (0..self.bodies.len()).map(|index| self.bodies.get(index));
-        recording.facts = bodies.zip(self.lives).map(|(body, life)| life.finish(&body)).collect();
+        self.motion.conclude(&mut self.state, now);
+        if self.time.until_rest {
+            self.warnings.extend(warnings::moving(&self.state, now));
+        }
+        recording.facts = self.state.facts(now)?;
         recording.warnings = self.warnings;
         Ok(recording)
     }
 
-    /// One step of every body, then what they change for each other.
-    fn advance(&mut self, t0: f64, t1: f64, left: &mut Vec<usize>) {
-        self.meet_fronts(t1);
-        if self.contacts.is_some() {
-            return self.touch(t0, t1);
-        }
-        let (world, support) = (&self.world, &self.support);
-        let (blocks, shared) = (self.bodies.blocks_mut(), self.phases.len() >= WORTH_SHARING);
-        let one = |(index, ((block, phases), lives))| {
-            world.step_block(block, phases, lives, |lane| support.carry(index * LANES + lane), t0, t1)
-        };
-        let concern = if shared {
-            blocks
-                .par_iter_mut()
-                .zip(self.phases.par_chunks_mut(LANES))
-                .zip(self.lives.par_chunks_mut(LANES))
-                .enumerate()
-                .with_min_len(CHUNK)
-                .map(one)
-                .reduce(|| Concern::Nothing, Concern::max)
-        } else {
-            blocks
-                .iter_mut()
-                .zip(self.phases.chunks_mut(LANES))
-                .zip(self.lives.chunks_mut(LANES))
-                .enumerate()
-                .map(one)
-                .fold(Concern::Nothing, Concern::max)
-        };
-        if concern == Concern::Settles {
-            self.settle(t1, left);
-        }
-        let slides = concern >= Concern::Slides;
-        if slides || self.slid {
-            let (bodies, lives) = (&self.bodies, &self.lives);
-            self.support.pass_on(|i| bodies.get(i).velocity, |i| lives[i].rubbed);
-        }
-        self.slid = slides;
+    /// One step: fronts that come in it, then all bodies.
+    fn advance(&mut self, t0: f64, t1: f64) -> Result<()> {
+        self.state.meet_fronts(t1);
+        self.motion.advance(&mut self.state, t0, t1)
     }
 
-    /// Aims the charges whose fronts come by `t1` at the bodies that have left their places.
-    fn meet_fronts(&mut self, t1: f64) {
-        let Some(later) = &mut self.later else { return };
-        for (index, charge, shot) in later.reached(t1, |index| self.bodies.get(index)) {
-            self.lives[index].strike(charge, shot);
-            if self.phases[index] == Phase::Flying {
-                self.phases[index] = Phase::Free;
+    /// Writes down where all bodies are.
+    fn record(&self, now: f64, recording: &mut Recording) -> Result<()> {
+        let before = recording.orientations.len().checked_sub(self.state.len());
+        recording.times.push(now);
+        for (index, (position, rotation)) in self.state.poses().enumerate() {
+            let (position, rotation) = (position.as_vec3(), rotation.as_quat());
+            if !(position.is_finite() && rotation.is_finite()) {
+                return Err(self.state.overflow(index, "its pose", now));
             }
-        }
-    }
-
-    /// Bodies that left let down what they carried; bodies that came to rest carry themselves again.
-    fn settle(&mut self, now: f64, left: &mut Vec<usize>) {
-        left.clear();
-        for (index, life) in self.lives.iter_mut().enumerate() {
-            match life.change.take() {
-                Some(Phase::Free) => left.push(index),
-                Some(Phase::Standing) => {
-                    let mut body = self.bodies.get(index);
-                    body.velocity = DVec3::ZERO;
-                    body.angular_momentum = DVec3::ZERO;
-                    self.bodies.set(index, &body);
-                    life.place = Place::new(&body, life.extent, life.ground_friction);
-                    life.facts.rest_time = now - CALM_TIME;
-                    self.support.stand_up(index);
-                    self.phases[index] = Phase::Standing;
-                }
-                _ => {}
-            }
-        }
-        if left.is_empty() {
-            return;
-        }
-        self.support.leave(left);
-        for &index in left.iter() {
-            self.phases[index] = Phase::Free;
-            let life = &mut self.lives[index];
-            life.facts.rest_time = f64::NAN;
-            life.calm = 0.0;
-            if let Some(later) = self.later.as_mut().filter(|_| !life.away) {
-                later.put_off(index, &self.bodies.get(index), &mut life.queue, now);
-            }
-            life.away = true;
-        }
-    }
-
-    fn record(&self, frame: usize, recording: &mut Recording) {
-        recording.times.push(frame as f64 / self.frame_rate);
-        let count = self.bodies.len();
-        for (index, life) in self.lives.iter().enumerate() {
-            let body = self.bodies.get(index);
-            recording.positions.push(body.position.as_vec3());
-            let rotation =
-                (body.world_from_principal * life.object_from_principal.conjugate()).normalize().as_quat();
-            let before = (frame > 0).then(|| recording.orientations[(frame - 1) * count + index]);
-            let flips = before.map_or(rotation.w < 0.0, |b| b.dot(rotation) < 0.0);
+            recording.positions.push(position);
+            let flips = match before {
+                Some(first) => recording.orientations[first + index].dot(rotation) < 0.0,
+                None => rotation.w < 0.0,
+            };
             recording.orientations.push(if flips { -rotation } else { rotation });
         }
+        Ok(())
     }
-}
-
-impl World {
-    /// One step of the bodies in a block: those in flight together, the others one by one. Returns the gravest of
-    /// what concerns others.
-    fn step_block<'a>(
-        &self,
-        block: &mut Block,
-        phases: &mut [Phase],
-        lives: &mut [Life],
-        carry: impl Fn(usize) -> &'a Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let flying = std::array::from_fn(|lane| phases.get(lane) == Some(&Phase::Flying));
-        if flying.contains(&true) {
-            block.fly(self.level, flying, self.air, t1 - t0);
-        }
-        if !flying.contains(&false) && self.ground.is_none_or(|ground| !ground.is_near(block.lowest())) {
-            return Concern::Nothing;
-        }
-        let mut gravest = Concern::Nothing;
-        for (lane, (phase, life)) in phases.iter_mut().zip(lives).enumerate() {
-            let carry = carry(lane);
-            if *phase == Phase::Standing && !life.queue.acts(t0, t1) && !carry.is_moved() {
-                life.rubbed = DVec3::ZERO;
-                continue;
-            }
-            if *phase == Phase::Held && !life.is_stirred(t0, t1) {
-                continue;
-            }
-            let mut body = block.get(lane);
-            gravest = gravest.max(self.step(&mut body, phase, life, carry, t0, t1));
-            block.set(lane, &body);
-        }
-        gravest
-    }
-
-    /// One step of one body; what flies has already flown. Returns what of it concerns others.
-    fn step(
-        &self,
-        body: &mut RigidBody,
-        phase: &mut Phase,
-        life: &mut Life,
-        carry: &Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let concern = match phase {
-            Phase::Flying => return self.land(body, life, t1 - t0),
-            Phase::Free => self.fly_loaded(body, life, t0, t1),
-            Phase::Held => self.hold(body, life, t0, t1),
-            Phase::Standing | Phase::Sliding => self.stand(body, phase, life, carry, t0, t1),
-            Phase::Anchored => {
-                if life.queue.acts(t0, t1) {
-                    self.load(body, life, t0, t1, false);
-                    body.velocity = DVec3::ZERO;
-                    body.angular_momentum = DVec3::ZERO;
-                }
-                Concern::Nothing
-            }
-        };
-        self.launch(body, phase, life, t1);
-        concern
-    }
-
-    /// Notes the speed with which a body's loads leave it.
-    fn launch(&self, body: &RigidBody, phase: &mut Phase, life: &mut Life, t1: f64) {
-        if !life.launched && life.queue.end <= t1 {
-            life.launched = true;
-            life.facts.launch_speed = life.facts.launch_speed.max(body.velocity.length());
-        }
-        if *phase == Phase::Free && life.launched {
-            *phase = Phase::Flying;
-        }
-    }
-
-    /// Puts panel loads and wind on a body's velocity and angular momentum.
-    fn load(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64, free: bool) {
-        let (mut impulse, mut angular) = life.queue.take(t0, t1, free);
-        if let Some(sheet) = life.sheet.filter(|_| free && impulse != DVec3::ZERO) {
-            (impulse, angular) = sheet.turn(body, impulse, angular, t1 - t0);
-        }
-        body.push(impulse, angular);
-        let winds = Winds { winds: &life.queue.winds, air: self.air };
-        life.facts.impulse += body.world_from_principal * impulse + body.blow(winds, t0, t1);
-    }
-
-    /// A step of a piece that is held, to its end or until it is free and on from there.
-    fn hold(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
-        let (hold, rest) = &**life.hold.as_ref().expect("it is held");
-        let until = hold.until;
-        let end = until.clamp(t0, t1);
-        let (impulse, _) = life.queue.take(t0, end, false);
-        let received = body.world_from_principal * impulse;
-        life.facts.impulse += received;
-        life.facts.held_back += received;
-        hold.place(body, rest, end);
-        if until > t1 {
-            return Concern::Nothing;
-        }
-        body.angular_momentum *= self.rotation;
-        life.facts.held_back -= body.velocity / body.inverse_mass;
-        life.facts.free_time = until;
-        life.hold = None;
-        if end < t1 {
-            self.fly_loaded(body, life, end, t1);
-        }
-        life.change = Some(Phase::Free);
-        Concern::Settles
-    }
-
-    fn stand(
-        &self,
-        body: &mut RigidBody,
-        phase: &mut Phase,
-        life: &mut Life,
-        carry: &Carry,
-        t0: f64,
-        t1: f64,
-    ) -> Concern {
-        let before = body.velocity;
-        self.load(body, life, t0, t1, false);
-        let (outcome, rubbed) = life.place.resist(body, before, carry, t1 - t0);
-        life.rubbed = rubbed;
-        match outcome {
-            Outcome::Holds => {
-                if *phase == Phase::Sliding {
-                    *phase = Phase::Standing;
-                    life.facts.rest_time = t1;
-                }
-                if rubbed == DVec3::ZERO { Concern::Nothing } else { Concern::Slides }
-            }
-            Outcome::Slides => {
-                *phase = Phase::Sliding;
-                life.facts.rest_time = f64::NAN;
-                Concern::Slides
-            }
-            Outcome::Leaves => {
-                life.change = Some(Phase::Free);
-                Concern::Settles
-            }
-        }
-    }
-
-    fn fly_loaded(&self, body: &mut RigidBody, life: &mut Life, t0: f64, t1: f64) -> Concern {
-        let dt = t1 - t0;
-        let before = body.velocity;
-        let half_fall = DVec3::new(0.0, -0.5 * GRAVITY * dt, 0.0);
-        body.velocity += half_fall;
-        self.load(body, life, t0, t1, true);
-        body.velocity += half_fall;
-        body.position += (before + body.velocity) * (0.5 * dt);
-        body.turn(dt);
-        self.land(body, life, dt)
-    }
-
-    /// Lets a body that has just moved meet the ground, and notices when it has come to rest.
-    #[inline]
-    fn land(&self, body: &mut RigidBody, life: &mut Life, dt: f64) -> Concern {
-        let Some(ground) = self.ground.filter(|ground| ground.is_near(body.position.y - body.reach)) else {
-            return Concern::Nothing;
-        };
-        let calm = ground.meet(body, &life.corners, life.ground_friction);
-        life.calm = if calm { life.calm + dt } else { 0.0 };
-        if life.calm < CALM_TIME {
-            return Concern::Nothing;
-        }
-        life.change = Some(Phase::Standing);
-        Concern::Settles
-    }
-}
-
-impl Life {
-    /// `in_place` is the friction where the body stands at the start, `on_ground` against the ground.
-    fn new(target: Target, hold: Option<Hold>, in_place: f64, on_ground: f64) -> Self {
-        let (low, high) = target.bounds;
-        let extent = (high.x - low.x).min(high.z - low.z);
-        let sheet = hold.is_some().then(|| Sheet::new(&target));
-        Self {
-            place: Place::new(&target.body, extent, in_place),
-            launched: target.queue.end <= 0.0,
-            away: false,
-            peaks: target.peaks,
-            queue: target.queue,
-            corners: target.corners,
-            object_from_principal: target.object_from_principal,
-            extent,
-            ground_friction: on_ground,
-            sheet,
-            hold: hold.map(|mut hold| {
-                if hold.until == f64::NEG_INFINITY {
-                    (hold.closed, hold.until) = (target.facts.arrival_time, target.facts.arrival_time);
-                }
-                let rest = (target.body.position, target.body.world_from_principal);
-                Box::new((hold, rest))
-            }),
-            calm: 0.0,
-            rubbed: DVec3::ZERO,
-            change: None,
-            facts: target.facts,
-        }
-    }
-
-    /// Whether anything happens to a held piece between two times.
-    fn is_stirred(&self, t0: f64, t1: f64) -> bool {
-        let moves = |(hold, _): &(Hold, _)| hold.moves(t0, t1) || hold.until <= t1;
-        self.queue.acts(t0, t1) || self.hold.as_deref().is_some_and(moves)
-    }
-
-    /// Takes a charge's loads anew.
-    fn strike(&mut self, charge: usize, shot: Shot) {
-        self.peaks[charge] = shot.peaks;
-        self.facts.peak_overpressure = self.peaks.iter().map(|p| p.overpressure).fold(0.0, f64::max);
-        self.facts.peak_load = self.peaks.iter().map(|p| p.load).fold(0.0, f64::max);
-        self.queue.replace(shot);
-        // It was aimed at the body as it lies now, not as it lay in its pane.
-        self.sheet = None;
-        self.launched = false;
-    }
-
-    fn finish(mut self, body: &RigidBody) -> BodyFacts {
-        if !self.launched {
-            self.facts.launch_speed = self.facts.launch_speed.max(body.velocity.length());
-        }
-        self.facts.final_velocity = body.velocity;
-        self.facts
-    }
-}
-
-/// One sentence a charge about bodies outside the range of its curves.
-fn reach_warnings(targets: &[Target], charges: usize) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for charge in 0..charges {
-        let count = |extension| targets.iter().filter(|t| t.reach[charge] == extension).count();
-        let near = count(Extension::Near);
-        if near > 0 {
-            warnings.push(format!(
-                "{near} of {} bodies are nearer to charge {charge} than its curves reach: the curves' innermost \
-                 values are held",
-                targets.len()
-            ));
-        }
-        let far = count(Extension::Far);
-        if far > 0 {
-            warnings.push(format!(
-                "{far} of {} bodies are farther from charge {charge} than its curves reach: the decay of a weak \
-                 shock continues them",
-                targets.len()
-            ));
-        }
-    }
-    warnings
-}
-
-fn hanging_warning(hanging: usize) -> Option<String> {
-    (hanging > 0).then(|| {
-        format!("{hanging} bodies stand on nothing: they are held in place until a blast moves them")
-    })
 }

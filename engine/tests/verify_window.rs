@@ -4,6 +4,7 @@ mod glazed;
 
 use brisance_engine::blast::BlastField;
 use brisance_engine::charge::Charge;
+use brisance_engine::dynamics::Until;
 use brisance_engine::fracture::{Fineness, Glass};
 use brisance_engine::scene::{Scene, Time};
 use brisance_engine::simulation::{Fate, Pane};
@@ -121,7 +122,7 @@ fn the_pieces_leave_with_the_momentum_of_the_swing() {
         .facts
         .iter()
         .zip(&pane.holds)
-        .map(|(facts, hold)| facts.mass * hold.at(hold.until).velocity.z)
+        .map(|(facts, hold)| facts.mass * hold.at(hold.until.time(facts.arrival_time)).velocity.z)
         .sum();
     assert!(swing(time) < released && released < swing(last), "{} {released} {}", swing(time), swing(last));
 }
@@ -156,7 +157,7 @@ fn pieces_move_with_the_pane_until_they_are_free() {
 fn the_frame_holds_the_rim_longer() {
     let (panes, recording) = run(&scene(window(1.0, 1.0, 0.006, 400), 500.0, 110.0));
     let pane = &panes.panes[0];
-    let rim = |piece: usize| pane.holds[piece].swing.is_some() || pane.holds[piece].until.is_infinite();
+    let rim = |piece: usize| pane.holds[piece].swing.is_some() || pane.holds[piece].until == Until::Forever;
     let inner = (0..pane.pieces.len()).filter(|&piece| !rim(piece));
     let last_inner = inner.clone().map(|piece| recording.facts[piece].free_time).fold(0.0, f64::max);
     let outer: Vec<f64> = (0..pane.pieces.len())
@@ -168,7 +169,7 @@ fn the_frame_holds_the_rim_longer() {
     later.sort_by(f64::total_cmp);
     assert!(later[later.len() / 20] > last_inner, "all but a few slivers at the edge are later: {later:?}");
     assert!(outer.iter().any(|t| t.is_nan()), "splinters stay in the frame");
-    for (piece, hold) in pane.holds.iter().enumerate().filter(|(_, hold)| hold.until.is_infinite()) {
+    for (piece, hold) in pane.holds.iter().enumerate().filter(|(_, hold)| hold.until == Until::Forever) {
         let last = recording.facts.len() * (recording.times.len() - 1);
         let gone =
             recording.positions[last + piece].as_dvec3() - pane.pieces.moments[piece].centroid.extend(0.0);
@@ -335,7 +336,7 @@ fn a_later_charge_throws_pieces_away_from_itself() {
     assert_eq!(both.facts.len(), alone.facts.len());
     let mut pushed = 0;
     for ((one, two), hold) in alone.facts.iter().zip(&both.facts).zip(&panes.panes[0].holds) {
-        if hold.until.is_finite() {
+        if hold.until != Until::Forever {
             let gained = two.final_velocity.z - one.final_velocity.z;
             assert!(gained > -0.05, "{gained}: {one:?} {two:?}");
             pushed += usize::from(gained > 0.02);

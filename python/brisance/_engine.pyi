@@ -246,12 +246,7 @@ class Scene:
         mass: NDArray[float64],
         buried: NDArray[bool_],
         assembly: bool,
-        anchored: bool,
-        occludes: bool,
-        can_rotate: bool,
-        friction: float,
-        drag_coefficient: float,
-        lift_coefficient: float | None,
+        behaviour: Mapping[str, Any],
         mortar: tuple[float, float, float] | None = None,
     ) -> int | None: ...
     def add_mesh(
@@ -262,12 +257,7 @@ class Scene:
         position: tuple[float, float, float],
         orientation: tuple[float, float, float, float],
         mass: float,
-        anchored: bool,
-        occludes: bool,
-        can_rotate: bool,
-        friction: float,
-        drag_coefficient: float,
-        lift_coefficient: float | None,
+        behaviour: Mapping[str, Any],
     ) -> None: ...
     def add_window(
         self,
@@ -277,17 +267,12 @@ class Scene:
         position: tuple[float, float, float],
         orientation: tuple[float, float, float, float],
         strength: float,
-        may_break: bool,
         recipe: Mapping[str, Any],
         release: Literal["as it cracks", "all at once"],
         bite: float | None,
         facade: float,
         assembly: int | None,
-        occludes: bool,
-        can_rotate: bool,
-        friction: float,
-        drag_coefficient: float,
-        lift_coefficient: float | None,
+        behaviour: Mapping[str, Any],
     ) -> None: ...
     def centres_of_mass(self) -> NDArray[float64]: ...
     def standing(self) -> dict[str, NDArray[float64]]: ...

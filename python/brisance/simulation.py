@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self
@@ -19,10 +18,12 @@ from brisance.errors import InputError
 from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits, most_pieces
 from brisance.model import AnyObject, Scene, Window
+from brisance.naming import naming
 from brisance.objects import pieces
 from brisance.piece import PieceSet
 from brisance.placement import check_charges, ground_warnings
-from brisance.result import Bodies, Pane, Result, Source
+from brisance.result import Bodies, Result, Source
+from brisance.windows import broken_panes, whole_pane
 
 MAX_STEPS = 10**10
 """Steps of integration beyond which a run would take days, so that the step is surely a slip."""
@@ -73,7 +74,7 @@ def simulate(
     _check_step(scene)
     built = build(scene)
     ready = time.perf_counter()
-    with _Progress(progress is True) as bar, _naming(built.windows):
+    with _Progress(progress is True) as bar, naming(built.names, built.windows):
         told = progress if callable(progress) else bar.update if progress else None
         recording = built.engine.simulate(
             threads=threads,
@@ -130,20 +131,11 @@ def build(scene: Scene) -> Built:
         raise InputError(str(error)) from error
     check_charges(scene, sets)
     windows = [obj for obj in scene.objects if isinstance(obj, Window)]
-    panes = [_whole(window, scene) for window in windows]
+    panes = [whole_pane(window, scene) for window in windows]
     warnings = [*_warnings(scene, sets), *ground_warnings(scene, sets, centres)]
     built = Built(engine, sets, windows, warnings, panes)
     _check_names(built.standing)
     return built
-
-
-def _whole(window: Window, scene: Scene) -> PieceSet:
-    """The pane of a window in one piece."""
-    from brisance.objects.window import glazing, whole_mesh
-
-    name = window.name or window.kind
-    mesh = whole_mesh(glazing(window, base_folder=scene.base_folder).rings, window.thickness)
-    return PieceSet(name=name, material="glass", names=[name], meshes=[mesh])
 
 
 def _seeded(scene: Scene) -> Iterator[tuple[AnyObject, int]]:
@@ -152,21 +144,6 @@ def _seeded(scene: Scene) -> Iterator[tuple[AnyObject, int]]:
     for obj in scene.objects:
         yield obj, seed
         seed = (seed + isinstance(obj, Window)) % 2**63
-
-
-@contextmanager
-def _naming(windows: list[Window]) -> Iterator[None]:
-    """Put a window's name in the place of its number in what the engine refuses."""
-    try:
-        yield
-    except InputError as error:
-        found = re.match(r"window (\d+): ", str(error))
-        if found is None:
-            raise
-        number = int(found[1])
-        sentence = str(error)[found.end() :]
-        joint = " " if sentence.startswith("would ") else ": "
-        raise InputError(f"window.{number} ({windows[number].name}){joint}{sentence}.") from None
 
 
 def _source(scene: Scene, number: int) -> str | dict[str, NDArray[np.float64]]:
@@ -208,7 +185,7 @@ def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
 
 
 def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
-    panes = _panes(built, recording)
+    panes = broken_panes(built.windows, built.panes, recording, start=len(built.names))
     _check_names([*built.sets, *(group for group, _ in panes)])
     sets = [*(group for group in built.sets if len(group)), *(group for group, _ in panes)]
     sources, start = [], 0
@@ -244,49 +221,6 @@ def _result(scene: Scene, built: Built, recording: _engine.Recording) -> Result:
         panes=[pane for _, pane in panes],
         warnings=list(dict.fromkeys([*built.warnings, *pane_warnings, *recording.warnings])),
     )
-
-
-def _panes(built: Built, recording: _engine.Recording) -> list[tuple[PieceSet, Pane]]:
-    """The pieces of each window, and what became of its pane."""
-    if not built.windows:
-        return []
-    from brisance.objects.window import pane_pieces
-
-    start, found = len(built.names), []
-    held_back, times = recording.held_back_n_s, recording.times.tolist()
-    for window, whole, after in zip(built.windows, built.panes, recording.panes, strict=True):
-        group = pane_pieces(window, after, name=whole.name)
-        stop = start + len(group)
-        mesh = whole.meshes[0]
-        taken = held_back[start:stop].sum(axis=0).tolist()
-        pane = Pane(
-            name=whole.name,
-            window=window,
-            fate=after.fate,
-            failure_time_s=after.failure_time_s,
-            failure_place_m=after.failure_place_m,
-            peak_pressure_pa=after.peak_pressure_pa,
-            peak_stress_pa=after.peak_stress_pa,
-            strength_pa=window.limit,
-            start=start,
-            stop=stop,
-            staying=after.staying,
-            mean_area_m2=float(after.pieces.area_m2.mean()),
-            frame_impulse_n_s=(taken[0], taken[1], taken[2]),
-            mesh=mesh,
-            deflection=after.deflection(mesh.points[:, :2].astype(np.float64)),
-            amplitude=after.amplitude(times),
-            broken_at_s=_broken_at(after, recording.arrival_time_s[start:stop]),
-        )
-        found.append((group, pane))
-        start = stop
-    return found
-
-
-def _broken_at(pane: _engine.Pane, arrivals: NDArray[np.float64]) -> float:
-    if pane.failure_time_s is not None:
-        return pane.failure_time_s
-    return float("inf") if pane.fate == "holds" else float(arrivals.min())
 
 
 class _Progress:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,59 +10,24 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import ArrayLike, NDArray
+from meshes import (
+    CUBE_POINTS,
+    CUBE_QUADS,
+    CUBE_TRIANGLES,
+    ROUNDING,
+    Floats,
+    body_of,
+    body_of_faces,
+    l_shape,
+    shifted,
+    solid,
+    write_obj,
+)
 from pxr import Gf, Usd, UsdGeom
 
 from brisance import _engine
 from brisance.errors import InputError
-from brisance.model import Charge, Ground, MeshObject, Scene
-from brisance.model.settings import Occlusion
-from brisance.objects.mesh import MeshBody, mesh_body, mesh_contains
 from brisance.objects.mesh.repair import repair
-from brisance.rotation import matrix_from_quaternion, quaternion_from_degrees, rotate
-from brisance.simulation import build
-
-SCENES = Path(__file__).resolve().parents[2] / "scenes"
-
-Floats = NDArray[np.float64]
-Faces = Sequence[tuple[int, ...]] | NDArray[np.int64]
-
-CUBE_POINTS = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-CUBE_QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-"""Faces -x, +x, -y, +y, -z, +z of the unit cube, counter-clockwise seen from outside."""
-CUBE_TRIANGLES = [(a, b, c) for p, q, r, s in CUBE_QUADS for a, b, c in ((p, q, r), (p, r, s))]
-ROUNDING = 1e-9
-"""Relative; sums of some thousand terms lose far less than this in double precision."""
-
-
-def write_obj(path: Path, points: ArrayLike, faces: Faces) -> Path:
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in np.asarray(points, float).tolist()]
-    lines += ["f " + " ".join(str(int(index) + 1) for index in face) for face in faces]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
-
-
-def body_of(path: Path, **keys: object) -> MeshBody:
-    weight = {} if "mass" in keys or "density" in keys else {"density": 1000.0}
-    obj = MeshObject.model_validate({"file": path.name, **weight, **keys})
-    return mesh_body(obj, base_folder=path.parent, name="prop")
-
-
-def body_of_faces(folder: Path, points: ArrayLike, faces: Faces, **keys: object) -> MeshBody:
-    return body_of(write_obj(folder / "prop.obj", points, faces), **keys)
-
-
-def solid(body: MeshBody) -> tuple[float, Floats, Floats]:
-    """Volume [m³], centre [m] and inertia per density [m⁵] as the engine takes them."""
-    found = _engine.mass_properties(vertices=body.vertices, triangles=body.triangles)
-    inertia = np.asarray(found["inertia_per_density"], np.float64)
-    return float(found["volume_m3"]), np.asarray(found["centre_m"], np.float64), inertia
-
-
-def shifted(offset: ArrayLike, *, size: ArrayLike = 1.0) -> Floats:
-    """The points of the unit cube, stretched and moved."""
-    moved: Floats = CUBE_POINTS * np.asarray(size) + np.asarray(offset)
-    return moved
 
 
 def pair(first: Floats, second: Floats) -> tuple[Floats, list[tuple[int, ...]]]:
@@ -121,15 +85,6 @@ def test_torus_approaches_its_closed_form(tmp_path: Path) -> None:
     assert np.diag(inertia) == pytest.approx(np.array([across, across, along]), rel=5e-3)
     assert not body.encloses((0, 0, 0))
     assert body.encloses((major, 0, 0))
-
-
-def l_shape(depth: float = 1.0) -> tuple[Floats, list[tuple[int, ...]]]:
-    """Three unit squares in an L, drawn out along z, its ends one concave face each."""
-    outline = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], float)
-    count = len(outline)
-    points = np.concatenate([np.column_stack([outline, np.full(count, z)]) for z in (0.0, depth)])
-    sides = [(n, (n + 1) % count, (n + 1) % count + count, n + count) for n in range(count)]
-    return points, [tuple(range(count - 1, -1, -1)), tuple(range(count, 2 * count)), *sides]
 
 
 def test_concave_mesh_is_kept_as_it_is(tmp_path: Path) -> None:
@@ -423,179 +378,3 @@ def test_negative_scale_keeps_faces_outwards(tmp_path: Path) -> None:
     assert body.warnings == []
     assert body.volume == pytest.approx(12.0, rel=1e-6)
     assert body.centre == pytest.approx(np.array([-0.5, 1.0, 3.0]), rel=1e-6)
-
-
-def engine_scene() -> _engine.Scene:
-    """Free air with 5 kg of TNT 5 m away from the origin along -z."""
-    scene = _engine.Scene(
-        pressure=101325.0,
-        temperature=288.15,
-        ground=None,
-        duration=0.05,
-        frame_rate=60.0,
-        step=None,
-        mode="translational",
-        clearing="piece",
-        drag="flow-relative",
-        pulse="friedlander",
-        negative_phase=False,
-        occlusion=Occlusion(enabled=False).model_dump(),
-        damping_factor=1.0,
-        rotation_factor=1.0,
-        contacts=False,
-        until_rest=False,
-    )
-    scene.add_charge(
-        mass=5.0,
-        tnt_equivalence=1.0,
-        position=(0.0, 0.0, -5.0),
-        burst="air",
-        time=0.0,
-        gain=1.0,
-        source="kingery-bulmash",
-    )
-    return scene
-
-
-def test_place_of_a_mesh_object(tmp_path: Path) -> None:
-    body = body_of_faces(
-        tmp_path, shifted(0.0), CUBE_QUADS, position=(10.0, 0.0, 0.0), rotation=(0.0, 90.0, 0.0), scale=2.0
-    )
-    # A quarter turn about y takes the corner's diagonal (1, 1, 1) to (1, 1, -1).
-    scene = engine_scene()
-    body.add_to(scene)
-    assert scene.simulate(threads=1).positions[0, 0] == pytest.approx(np.array([11.0, 1.0, -1.0]), rel=1e-6)
-    assert scene.centres_of_mass()[0] == pytest.approx(body.centre, rel=ROUNDING)
-    assert body.encloses((11.9, 0.1, -1.9))
-    assert not body.encloses((11.9, 0.1, 0.1))
-    assert body.mass == pytest.approx(8000.0, rel=ROUNDING)
-
-
-def test_given_mass_wins(tmp_path: Path) -> None:
-    assert body_of_faces(tmp_path, CUBE_POINTS, CUBE_QUADS, mass=12.5).mass == 12.5
-
-
-ANGLES = st.tuples(*[st.floats(-360.0, 360.0)] * 3)
-OFFSETS = st.tuples(*[st.floats(-50.0, 50.0)] * 3)
-
-
-@settings(max_examples=25, deadline=None)
-@given(angles=ANGLES, offset=OFFSETS)
-def test_rigid_motion_changes_neither_volume_nor_inertia(
-    tmp_path_factory: pytest.TempPathFactory, angles: tuple[float, ...], offset: tuple[float, ...]
-) -> None:
-    points, faces = l_shape(0.7)
-    moved = rotate(quaternion_from_degrees(angles), points) + np.array(offset)
-    folder = tmp_path_factory.mktemp("moved")
-    still, placed = body_of_faces(folder, points, faces), body_of_faces(folder, moved, faces)
-    volume, centre, inertia = solid(placed)
-    assert placed.warnings == []
-    # 50 m away from a body of 2 m, the coordinates have 1e-14 of their own in rounding.
-    assert volume == pytest.approx(still.volume, rel=1e-9)
-    assert centre == pytest.approx(
-        rotate(quaternion_from_degrees(angles), still.centre) + np.array(offset), abs=1e-9
-    )
-    assert np.linalg.eigvalsh(inertia) == pytest.approx(np.linalg.eigvalsh(solid(still)[2]), rel=1e-8)
-
-
-@settings(max_examples=60, deadline=None)
-@given(point=st.tuples(*[st.floats(-0.5, 2.5)] * 3))
-def test_inside_of_a_concave_mesh(point: tuple[float, float, float]) -> None:
-    x, y, z = point
-    if min(abs(c - edge) for c in point for edge in (0.0, 1.0, 2.0)) < 1e-6:
-        return  # on the surface either answer may come
-    points = np.concatenate([shifted(0.0, size=(2, 1, 1)), shifted((0, 1, 0))])
-    both = np.concatenate([CUBE_TRIANGLES, np.array(CUBE_TRIANGLES) + 8])
-    inside = 0 < z < 1 and ((0 < x < 2 and 0 < y < 1) or (0 < x < 1 and 0 < y < 2))
-    assert mesh_contains(points, both, point) == inside
-
-
-def test_engine_flies_a_mesh_like_the_box_it_is(tmp_path: Path) -> None:
-    """A box as a mesh and as a box get the same impulse and mass, apart from their different panels."""
-    size = np.array([0.4, 0.6, 0.5])
-    body = body_of_faces(tmp_path, shifted(-size / 2, size=size), CUBE_QUADS, mass=30.0)
-    scene = engine_scene()
-    body.add_to(scene)
-    scene.add_boxes(
-        size=size[None],
-        position=np.zeros((1, 3)),
-        orientation=np.array([[1.0, 0.0, 0.0, 0.0]]),
-        mass=np.array([30.0]),
-        buried=np.zeros((1, 6), bool),
-        assembly=False,
-        anchored=False,
-        occludes=True,
-        can_rotate=True,
-        friction=0.6,
-        drag_coefficient=1.05,
-        lift_coefficient=None,
-    )
-    recording = scene.simulate(threads=1)
-    mesh, box = recording.impulse_n_s
-    assert recording.mass_kg == pytest.approx(np.array([30.0, 30.0]))
-    assert mesh[2] > 0
-    # Two triangles a face against the box's panels: the pulse is sampled at other points of the same face.
-    assert mesh[2] == pytest.approx(box[2], rel=0.05)
-
-
-def scene_with_can(*, charge: tuple[float, float, float], height: float) -> Scene:
-    """The jerry can of the example scene, standing at a height [m] on a ground at 0."""
-    return Scene(
-        charges=[Charge(mass=1.0, position=charge)],
-        objects=[MeshObject(file="jerry_can.obj", name="can", mass=20.0, position=(0.0, height, 0.0))],
-        ground=Ground(),
-        base_folder=SCENES / "meshes",
-    )
-
-
-def test_can_of_the_example_scene_is_sound_and_concave() -> None:
-    body = body_of(SCENES / "meshes" / "jerry_can.obj")
-    assert body.warnings == []
-    assert 0.02 < body.volume < 0.026
-    assert body.volume < 0.9 * trimesh.convex.convex_hull(body.vertices).volume
-
-
-def test_mesh_that_stands_on_the_ground_gives_no_warning() -> None:
-    assert build(scene_with_can(charge=(0, 1, -3), height=0.0)).warnings == []
-
-
-def test_sunken_mesh_is_warned_of() -> None:
-    (warning,) = build(scene_with_can(charge=(0, 1, -3), height=-0.1)).warnings
-    assert warning.startswith("can begins 0.1 m below the ground")
-
-
-def test_charge_inside_a_mesh_is_refused() -> None:
-    with pytest.raises(InputError, match="is inside the mesh 'can'"):
-        build(scene_with_can(charge=(0.0, 0.25, 0.0), height=0.0))
-
-
-def test_charge_between_can_and_handle_is_outside() -> None:
-    build(scene_with_can(charge=(0.03, 0.448, 0.0), height=0.0))
-
-
-@pytest.mark.parametrize(
-    ("degrees", "vector", "expected"),
-    [
-        ((90, 0, 0), (0, 1, 0), (0, 0, 1)),
-        ((0, 90, 0), (0, 0, 1), (1, 0, 0)),
-        ((0, 0, 90), (1, 0, 0), (0, 1, 0)),
-        ((90, 90, 0), (0, 1, 0), (1, 0, 0)),
-        ((90, 0, 90), (0, 0, 1), (1, 0, 0)),
-    ],
-)
-def test_degrees_turn_about_x_then_y_then_z(
-    degrees: tuple[float, ...], vector: tuple[float, ...], expected: tuple[float, ...]
-) -> None:
-    assert rotate(quaternion_from_degrees(degrees), vector) == pytest.approx(np.array(expected), abs=1e-15)
-
-
-@given(angles=ANGLES)
-def test_quaternion_is_the_product_of_three_turns(angles: tuple[float, ...]) -> None:
-    quaternion = quaternion_from_degrees(angles)
-    a, b, c = np.radians(angles)
-    about_x = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]])
-    about_y = np.array([[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
-    about_z = np.array([[np.cos(c), -np.sin(c), 0], [np.sin(c), np.cos(c), 0], [0, 0, 1]])
-    assert quaternion[0] >= 0.0
-    assert np.linalg.norm(quaternion) == pytest.approx(1.0, abs=1e-15)
-    assert matrix_from_quaternion(quaternion) == pytest.approx(about_z @ about_y @ about_x, abs=1e-14)

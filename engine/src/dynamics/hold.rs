@@ -28,8 +28,19 @@ pub struct Hold {
     pub closed: f64,
     /// How it turns in the rebate of the frame from then on, where it lies in one.
     pub swing: Option<Swing>,
-    /// When it is free [s]; infinite for one that stays, minus infinity for one that waits for the front.
-    pub until: f64,
+    /// When it is free.
+    pub until: Until,
+}
+
+/// When a held piece is free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Until {
+    /// When the first front comes to it.
+    TheFront,
+    /// At a time [s].
+    Time(f64),
+    /// It stays.
+    Forever,
 }
 
 /// A piece that turns about the edge of its rebate, like a door.
@@ -93,17 +104,17 @@ fn hermite([p, v]: [f64; 2], [q, w]: [f64; 2], s: f64, interval: f64) -> [f64; 2
 impl Hold {
     /// A hold of a piece that does not move until the front comes to it, and then is free.
     pub fn until_the_front() -> Self {
-        Self::still(f64::NEG_INFINITY)
+        Self::still(Until::TheFront)
     }
 
     /// A hold that only says when a piece is free: it does not move before.
-    pub fn still(until: f64) -> Self {
+    pub fn still(until: Until) -> Self {
         Self {
             bowing: Arc::default(),
             deflection: 0.0,
             tilt: DVec3::ZERO,
             normal: DVec3::Z,
-            closed: until,
+            closed: f64::INFINITY,
             swing: None,
             until,
         }
@@ -154,6 +165,22 @@ impl Hold {
         body.world_from_principal = (now.turn * rest.1).normalize();
         let spin = body.world_from_principal.conjugate() * now.spin;
         body.angular_momentum = spin / body.inverse_moments;
+    }
+}
+
+impl Until {
+    /// At a time [s]; never where that is infinite.
+    pub fn at(time: f64) -> Self {
+        if time == f64::INFINITY { Self::Forever } else { Self::Time(time) }
+    }
+
+    /// The time [s] for a piece that the first front reaches at `arrival` [s]; infinite for one that stays.
+    pub fn time(self, arrival: f64) -> f64 {
+        match self {
+            Self::TheFront => arrival,
+            Self::Time(time) => time,
+            Self::Forever => f64::INFINITY,
+        }
     }
 }
 

@@ -22,7 +22,7 @@ mod support;
 
 pub use bodies::{Block, Bodies, LANES};
 pub use body::{Air, RigidBody, Winds};
-pub use hold::{Bowing, Displacement, Hold, Swing};
+pub use hold::{Bowing, Displacement, Hold, Swing, Until};
 pub use support::{Carry, Footing, Support};
 
 /// Acceleration of free fall [m/s²], along −y.

@@ -1,4 +1,4 @@
-//! The same run where bodies touch: loads and drag change their velocities, the contact world does the rest.
+//! Bodies that touch: loads and drag change their velocities, the contact world does the rest.
 //!
 //! A step puts on each body the exact impulse of its loads and of the wind, then all of them move together. Steps are
 //! fine while loads act and bodies are thrown, and as long as contacts allow otherwise. Bodies sleep until a load or
@@ -7,20 +7,22 @@
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use super::life::Phase;
+use super::motion::Motion;
+use super::state::State;
+use super::steps::steps_of;
 use super::targets::Target;
-use super::{Phase, Simulation};
 use crate::dynamics::contact::{
     Bond, CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes, REACH, bonds_of_bricks,
 };
 use crate::dynamics::ground::CALM_SPEED;
-use crate::dynamics::{RigidBody, Winds};
+use crate::dynamics::{Bodies, RigidBody, Winds};
+use crate::error::Result;
 use crate::geometry::MassProperties;
 use crate::scene::{Body, Scene, Shape};
 
 /// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
 const TRAVEL: f64 = 0.25;
-/// Longest step of bodies that fly freely once all loads are over [s].
-const CALM_STEP: f64 = 5e-3;
 /// The shortest step for that [s].
 const SHORTEST_STEP: f64 = 1e-3;
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
@@ -37,10 +39,16 @@ const STAYED: f64 = 5e-3;
 pub(super) struct Contacts {
     world: ContactWorld,
     tracks: Vec<Track>,
+    /// Steps a frame while loads act, at least.
+    loaded: usize,
     /// Speed of the fastest body [m/s].
     fastest: f64,
     /// Middle of the scene [m].
     origin: DVec3,
+    /// Bounds of what glass sits in [m].
+    frames: Vec<(DVec3, DVec3)>,
+    /// Free pieces of panes that have yet to leave their frames.
+    leaving: Vec<usize>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +62,7 @@ struct Track {
 
 impl Contacts {
     /// The bodies of a scene, asleep where they stand; those that are held join later.
-    pub fn new(scene: &Scene, targets: &[Target]) -> Self {
+    pub fn new(scene: &Scene, targets: &[Target], loaded: usize) -> Self {
         let glass: Vec<&Target> = scene
             .bodies
             .iter()
@@ -78,6 +86,9 @@ impl Contacts {
                 passes: passes(body, target),
             })
             .collect();
+        let holds_glass = |&(body, _): &(&ContactBody, &Target)| body.passes == Passes::Glass;
+        let frames =
+            bodies.iter().zip(targets).filter(holds_glass).map(|(_, target)| target.bounds).collect();
         let bounds = targets.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), target| {
             (low.min(target.bounds.0), high.max(target.bounds.1))
         });
@@ -90,7 +101,15 @@ impl Contacts {
         }
         world.bind(&bonds(scene));
         let track = Track { moved: 0.0, asleep: true, far: false };
-        Self { world, tracks: vec![track; targets.len()], fastest: 0.0, origin }
+        Self {
+            world,
+            tracks: vec![track; targets.len()],
+            loaded,
+            fastest: 0.0,
+            origin,
+            frames,
+            leaving: Vec::new(),
+        }
     }
 }
 
@@ -130,94 +149,92 @@ fn bonds(scene: &Scene) -> Vec<Bond> {
     all
 }
 
-impl Simulation {
-    /// Steps from the frame before to this one.
-    pub(super) fn steps_to(&self, frame: usize) -> usize {
-        let (t0, t1) = ((frame - 1) as f64 / self.frame_rate, frame as f64 / self.frame_rate);
-        let Some(contacts) = &self.contacts else {
-            let calm = libm::ceil((t1 - t0) / CALM_STEP - 1e-9).max(1.0) as usize;
-            return if t0 < self.calm { self.steps_per_frame } else { calm.min(self.steps_per_frame) };
-        };
-        let loaded = self.lives.iter().any(|life| life.is_stirred(t0, t1))
-            || self.later.as_ref().is_some_and(|later| later.comes(t1, |i| self.bodies.get(i)));
-        let short = (TRAVEL / contacts.fastest).clamp(SHORTEST_STEP, LONGEST_STEP);
-        let steps = libm::ceil((t1 - t0) / short - 1e-9).max(1.0) as usize;
-        if loaded { steps.max(self.steps_per_frame) } else { steps }
+impl Motion for Contacts {
+    fn steps(&self, state: &State, t0: f64, t1: f64) -> usize {
+        let short = (TRAVEL / self.fastest).clamp(SHORTEST_STEP, LONGEST_STEP);
+        let steps = steps_of(t1 - t0, short);
+        if state.is_stirred(t0, t1) { steps.max(self.loaded) } else { steps }
     }
 
-    /// One step of bodies that touch.
-    pub(super) fn touch(&mut self, t0: f64, t1: f64) {
+    fn advance(&mut self, state: &mut State, t0: f64, t1: f64) -> Result<()> {
         let mut freed = Vec::new();
-        for index in 0..self.lives.len() {
-            match self.phases[index] {
+        for index in 0..state.len() {
+            match state.phases[index] {
                 Phase::Anchored | Phase::Held => {
-                    if self.lives[index].is_stirred(t0, t1) && self.stir(index, t0, t1) {
+                    if state.lives[index].is_stirred(t0, t1) && stir(state, index, t0, t1) {
                         freed.push(index);
                     }
                 }
-                _ => self.push(index, t0, t1),
+                _ => self.push(state, index, t0, t1)?,
             }
         }
-        self.move_together(t0, t1);
+        self.move_together(&mut state.bodies, t0, t1);
         for index in freed {
-            self.phases[index] = Phase::Free;
-            self.lives[index].change = None;
-            let contacts = self.contacts.as_mut().expect("bodies touch");
-            contacts.world.join(index, &self.bodies.get(index), true);
-            contacts.tracks[index] = Track { moved: t1, asleep: false, far: false };
-            self.part(index, t1);
+            state.phases[index] = Phase::Free;
+            state.lives[index].change = None;
+            self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
+            self.tracks[index] = Track { moved: t1, asleep: false, far: false };
+            self.leaving.push(index);
+            state.part(index, t1);
         }
-        for index in 0..self.lives.len() {
-            self.account(index, t1);
+        self.leave_frames(state);
+        for index in 0..state.len() {
+            self.account(state, index, t1);
         }
+        Ok(())
     }
 
-    /// A step of a body that does not move by itself. Returns whether it is free now.
-    fn stir(&mut self, index: usize, t0: f64, t1: f64) -> bool {
-        let mut body = self.bodies.get(index);
-        let carry = self.support.carry(index);
-        self.world.step(&mut body, &mut self.phases[index], &mut self.lives[index], carry, t0, t1);
-        self.bodies.set(index, &body);
-        self.lives[index].change.is_some()
+    fn rests(&self, state: &State, now: f64) -> bool {
+        state.rests(now, |index| self.tracks[index].rests(now))
     }
 
+    fn conclude(&self, state: &mut State, now: f64) {
+        for (index, (life, track)) in state.lives.iter_mut().zip(&self.tracks).enumerate() {
+            let shift = state.bodies.get(index).position.distance(life.place.origin);
+            let stayed = !life.away && shift < STAYED;
+            let rest = if stayed { 0.0 } else { track.moved };
+            life.facts.rest_time = if track.rests(now) { rest } else { f64::NAN };
+        }
+    }
+}
+
+impl Contacts {
     /// Puts loads, wind and the air's resistance on a body's velocity.
-    fn push(&mut self, index: usize, t0: f64, t1: f64) {
-        let contacts = self.contacts.as_mut().expect("bodies touch");
-        let (track, life) = (contacts.tracks[index], &mut self.lives[index]);
+    fn push(&mut self, state: &mut State, index: usize, t0: f64, t1: f64) -> Result<()> {
+        let (track, life, world) = (self.tracks[index], &mut state.lives[index], &state.world);
         let loaded = life.queue.acts(t0, t1);
         if track.asleep && !loaded {
-            return;
+            return Ok(());
         }
-        let mut body = self.bodies.get(index);
+        let mut body = state.bodies.get(index);
         if track.far {
             if loaded {
-                self.world.fly_loaded(&mut body, life, t0, t1);
+                world.fly_loaded(&mut body, life, t0, t1);
             } else {
-                body.fly(self.world.air, t1 - t0);
-                self.world.land(&mut body, life, t1 - t0);
+                body.fly(world.air, t1 - t0);
+                world.land(&mut body, life, t1 - t0);
             }
             life.change = None;
-            self.bodies.set(index, &body);
+            state.bodies.set(index, &body);
         } else if loaded {
             let before = (body.velocity, body.angular_momentum);
             let away = life.away;
-            self.world.load(&mut body, life, t0, t1, away);
+            world.load(&mut body, life, t0, t1, away);
             if (body.velocity, body.angular_momentum) != before {
-                contacts.world.drive(index, &body);
+                self.world.drive(index, &sound(state, index, body, t1)?);
             }
         } else if body.velocity.length_squared() > FELT_SPEED * FELT_SPEED {
-            body.blow(Winds { winds: &[], air: self.world.air }, t0, t1);
-            contacts.world.drive(index, &body);
+            body.blow(Winds { winds: &[], air: world.air }, t0, t1);
+            self.world.drive(index, &sound(state, index, body, t1)?);
         }
+        Ok(())
     }
 
     /// Moves all bodies that are awake and takes over where they are.
-    fn move_together(&mut self, t0: f64, t1: f64) {
-        let contacts = self.contacts.as_mut().expect("bodies touch");
-        let (bodies, tracks) = (&mut self.bodies, &mut contacts.tracks);
+    fn move_together(&mut self, bodies: &mut Bodies, t0: f64, t1: f64) {
+        let tracks = &mut self.tracks;
         let (mut fastest, mut strays) = (0.0_f64, Vec::new());
-        contacts.world.step(t1 - t0, |moved, position, rotation, velocity, spin| {
+        self.world.step(t1 - t0, |moved, position, rotation, velocity, spin| {
             let (index, track) = (moved.index, &mut tracks[moved.index]);
             let mut body = bodies.get(index);
             body.position = position;
@@ -232,78 +249,82 @@ impl Simulation {
                     track.moved = t1;
                 }
             }
-            if position.distance(contacts.origin) > REACH {
+            if position.distance(self.origin) > REACH {
                 strays.push(index);
             }
             bodies.set(index, &body);
         });
-        contacts.fastest = fastest;
+        self.fastest = fastest;
         for index in strays {
-            contacts.world.leave(index);
-            contacts.tracks[index].far = true;
+            self.world.leave(index);
+            self.tracks[index].far = true;
         }
+    }
+
+    /// Pieces of panes meet the frame they sat in as soon as they are clear of it: not before, since the two overlap
+    /// while the piece is in the rebate, and would be driven apart.
+    fn leave_frames(&mut self, state: &State) {
+        let (frames, world) = (&self.frames, &mut self.world);
+        self.leaving.retain(|&index| {
+            let (body, corners) = (state.bodies.get(index), &state.lives[index].corners);
+            let is_in = frames.iter().any(|&frame| reaches(&body, corners, frame));
+            if !is_in {
+                world.meet_all(index);
+            }
+            is_in
+        });
     }
 
     /// Notes what a step has made of a body.
-    fn account(&mut self, index: usize, t1: f64) {
-        let (phase, life) = (self.phases[index], &mut self.lives[index]);
+    fn account(&self, state: &mut State, index: usize, t1: f64) {
+        let (phase, life) = (state.phases[index], &state.lives[index]);
         if matches!(phase, Phase::Anchored | Phase::Held) {
             return;
         }
-        let track = self.contacts.as_ref().expect("bodies touch").tracks[index];
-        if life.launched && (track.asleep || life.away) {
+        if life.launched && (self.tracks[index].asleep || life.away) {
             return;
         }
-        let body = self.bodies.get(index);
-        let leaves = !life.away && life.place.is_left(&body);
-        if leaves {
-            self.phases[index] = Phase::Free;
-            self.part(index, t1);
+        let body = state.bodies.get(index);
+        if !life.away && life.place.is_left(&body) {
+            state.phases[index] = Phase::Free;
+            state.part(index, t1);
         }
-        self.world.launch(&body, &mut self.phases[index], &mut self.lives[index], t1);
+        state.world.launch(&body, &mut state.phases[index], &mut state.lives[index], t1);
     }
+}
 
-    /// A body has left its place: it waits for the fronts that have yet to come to it.
-    fn part(&mut self, index: usize, now: f64) {
-        let life = &mut self.lives[index];
-        if let Some(later) = self.later.as_mut().filter(|_| !life.away) {
-            later.put_off(index, &self.bodies.get(index), &mut life.queue, now);
-        }
-        life.away = true;
+/// Whether the bounds of a body with these corners in its principal axes [m] overlap others.
+fn reaches(body: &RigidBody, corners: &[DVec3], (low, high): (DVec3, DVec3)) -> bool {
+    let nearest = body.position.clamp(low, high);
+    if body.position.distance_squared(nearest) > body.reach * body.reach {
+        return false;
     }
+    let (from, to) = corners
+        .iter()
+        .map(|&corner| body.position + body.world_from_principal * corner)
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(from, to), corner| {
+            (from.min(corner), to.max(corner))
+        });
+    from.cmplt(high).all() && to.cmpgt(low).all()
+}
 
-    /// Whether all loads are over and every body rests.
-    pub(super) fn rests(&self, now: f64) -> bool {
-        let over = |index: usize| {
-            let (life, phase) = (&self.lives[index], self.phases[index]);
-            let held = life.hold.as_ref().is_some_and(|hold| hold.0.until.is_finite());
-            let still = match &self.contacts {
-                Some(contacts) => contacts.tracks[index].rests(now),
-                None => matches!(phase, Phase::Standing | Phase::Anchored | Phase::Held),
-            };
-            life.queue.end <= now && !held && (still || matches!(phase, Phase::Anchored | Phase::Held))
-        };
-        !self.later.as_ref().is_some_and(super::Later::awaited) && (0..self.lives.len()).all(over)
+/// The state of a body as it is given to the contact world, which works in single precision.
+fn sound(state: &State, index: usize, body: RigidBody, now: f64) -> Result<RigidBody> {
+    let finite = |v: DVec3| v.as_vec3().is_finite();
+    if finite(body.position) && finite(body.velocity) && finite(body.angular_velocity()) {
+        Ok(body)
+    } else {
+        Err(state.overflow(index, "its motion", now))
     }
+}
 
-    /// Notes when bodies came to rest, and says how many have not where the run was to last until all do.
-    pub(super) fn conclude(&mut self, now: f64) {
-        if let Some(contacts) = &self.contacts {
-            for (index, (life, track)) in self.lives.iter_mut().zip(&contacts.tracks).enumerate() {
-                let shift = self.bodies.get(index).position.distance(life.place.origin);
-                let stayed = !life.away && shift < STAYED;
-                let rest = if stayed { 0.0 } else { track.moved };
-                life.facts.rest_time = if track.rests(now) { rest } else { f64::NAN };
-            }
-        }
-        let moving = self.lives.iter().filter(|life| life.facts.rest_time.is_nan()).count();
-        if self.until_rest && moving > 0 {
-            self.warnings.push(format!(
-                "{moving} of {} bodies still move at {now:.2} s, where the run ends at the latest",
-                self.lives.len()
-            ));
-        }
-    }
+/// A step of a body that does not move by itself. Returns whether it is free now.
+fn stir(state: &mut State, index: usize, t0: f64, t1: f64) -> bool {
+    let mut body = state.bodies.get(index);
+    let (carry, life) = (state.support.carry(index), &mut state.lives[index]);
+    state.world.step(&mut body, &mut state.phases[index], life, carry, t0, t1);
+    state.bodies.set(index, &body);
+    life.change.is_some()
 }
 
 impl Track {

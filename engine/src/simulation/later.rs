@@ -3,8 +3,9 @@
 //! All charges are aimed before the run, at the places where bodies stand. A body that leaves its place forgets the
 //! loads of the fronts that have yet to come to it, and waits for them; when one comes, it is aimed at anew.
 
+use super::queue::LoadQueue;
 use super::shelter::Shelters;
-use super::targets::{LoadQueue, Shot, aim_anew};
+use super::targets::{Shot, aim_anew};
 use crate::blast::BlastField;
 use crate::dynamics::RigidBody;
 use crate::scene::Scene;

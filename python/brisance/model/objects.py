@@ -75,6 +75,17 @@ class SceneObject(Model):
         own_x, own_y, own_z = rotate((w, -x, -y, -z), offset).tolist()
         return own_x, own_y, own_z
 
+    def behaviour(self) -> dict[str, bool | float | None]:
+        """How its pieces behave, as the engine takes it: by the keys that every object has."""
+        return {
+            "anchored": self.anchored,
+            "occludes": self.occludes,
+            "can_rotate": self.can_rotate,
+            "friction": self.friction,
+            "drag_coefficient": self.drag_coefficient,
+            "lift_coefficient": self.lift_coefficient,
+        }
+
     def encloses(self, point: Sequence[float]) -> bool:
         """Whether a point of the world [m] lies in or on its body, where its keys alone can tell."""
         return False

@@ -24,12 +24,7 @@ def block_pieces(block: Block, *, name: str) -> PieceSet:
             mass=np.array([block.weight], dtype=np.float64),
             buried=np.zeros((1, 6), dtype=np.bool_),
             assembly=False,
-            anchored=block.anchored,
-            occludes=block.occludes,
-            can_rotate=block.can_rotate,
-            friction=block.friction,
-            drag_coefficient=block.drag_coefficient,
-            lift_coefficient=block.lift_coefficient,
+            behaviour=block.behaviour(),
         )
 
     return PieceSet(

@@ -89,12 +89,7 @@ def wall_pieces(wall: BrickWall, *, name: str) -> PieceSet:
             mass=mass,
             buried=bricks.buried,
             assembly=True,
-            anchored=wall.anchored,
-            occludes=wall.occludes,
-            can_rotate=wall.can_rotate,
-            friction=wall.friction,
-            drag_coefficient=wall.drag_coefficient,
-            lift_coefficient=wall.lift_coefficient,
+            behaviour=wall.behaviour(),
             mortar=wall.mortar,
         )
 

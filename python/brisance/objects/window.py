@@ -100,7 +100,6 @@ def frame_pieces(glazed: Glazing, *, name: str, seed: int) -> PieceSet:
             position=window.position,
             orientation=window.orientation(),
             strength=window.limit,
-            may_break=not window.anchored,
             recipe=recipe(
                 _fineness(glazed), glass=window.glass, seeds=seeds(window.pattern, glazed.rings), seed=seed
             ),
@@ -108,11 +107,7 @@ def frame_pieces(glazed: Glazing, *, name: str, seed: int) -> PieceSet:
             bite=window.bite if window.frame else None,
             facade=window.wall_around,
             assembly=assembly,
-            occludes=window.occludes,
-            can_rotate=window.can_rotate,
-            friction=window.friction,
-            drag_coefficient=window.drag_coefficient,
-            lift_coefficient=window.lift_coefficient,
+            behaviour=window.behaviour(),
         )
 
     return PieceSet(
@@ -190,12 +185,7 @@ def _add_bars(engine: _engine.Scene, window: Window, bars: list[_Bar], turn: Arr
         mass=BAR_DENSITY * size.prod(axis=1),
         buried=np.zeros((len(bars), 6), dtype=np.bool_),
         assembly=True,
-        anchored=True,
-        occludes=window.occludes,
-        can_rotate=False,
-        friction=window.friction,
-        drag_coefficient=window.drag_coefficient,
-        lift_coefficient=None,
+        behaviour={**window.behaviour(), "anchored": True, "can_rotate": False, "lift_coefficient": None},
     )
 
 
@@ -257,7 +247,7 @@ def _cells(rings: list[Array]) -> tuple[Array, list[list[int]]]:
         ends = np.cumsum(pattern.ring_sizes)
         cells = np.split(pattern.ring_vertices.astype(int), ends[:-1])
         return pattern.vertices, [cell.tolist() for cell in cells]
-    across, up = (max(2, round(CELLS * side / size.max())) for side in size)
+    across, up = (max(2, round(CELLS * (side / size.max()))) for side in size)
     x, y = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, up + 1))
     corners = low + np.column_stack([x.ravel(), y.ravel()]) * size
     first = [row * (across + 1) + column for row in range(up) for column in range(across)]

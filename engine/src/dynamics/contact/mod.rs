@@ -68,7 +68,7 @@ pub enum Passes {
     Nothing,
     /// It holds glass, and does not meet that.
     Glass,
-    /// It was held by frames, and does not meet those.
+    /// It was held by frames, and does not meet those until it has left them.
     Frames,
 }
 
@@ -196,6 +196,15 @@ impl ContactWorld {
             self.bonds.forget(index);
             self.index.remove(&id);
             self.world.destroy_body(id).expect(SOUND);
+        }
+    }
+
+    /// Lets a body meet everything from now on, whatever it passed before.
+    pub fn meet_all(&mut self, index: usize) {
+        self.bodies[index].passes = Passes::Nothing;
+        let Some(id) = self.ids[index] else { return };
+        for shape in self.world.body_shapes(id).expect(SOUND) {
+            self.world.set_shape_filter(shape, Passes::Nothing.filter(), true).expect(SOUND);
         }
     }
 

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use super::shelter::Shelters;
 use super::targets::{self, Outlines, Target};
 use crate::blast::BlastField;
-use crate::dynamics::{Bowing, Hold};
+use crate::dynamics::{Bowing, Hold, Until};
 use crate::error::{Error, Result};
 use crate::fracture::{CrackClock, Fineness, Glass, Grown, Pieces, Recipe, outline};
 use crate::geometry::{Polygon, Sample};
@@ -167,6 +167,16 @@ impl Panes {
         (Scene { bodies, windows: Vec::new(), ..scene.clone() }, shelters.with_pieces(count, places))
     }
 
+    /// Of each pane, the number of its first piece in a scene with so many other bodies.
+    pub(super) fn first_pieces(&self, bodies: usize) -> Vec<usize> {
+        let mut next = bodies;
+        let first = |pane: &Pane| {
+            next += pane.holds.len();
+            next - pane.holds.len()
+        };
+        self.panes.iter().map(first).collect()
+    }
+
     pub(super) fn outlines(&self) -> Option<&Outlines> {
         (!self.panes.is_empty()).then_some(&self.outlines)
     }
@@ -228,7 +238,7 @@ impl Trial {
             Fate::InPieces if !glass.holds() => {
                 (response.bowing, vec![Hold::until_the_front(); pieces.len()])
             }
-            _ => (response.bowing, vec![Hold::still(f64::INFINITY); pieces.len()]),
+            _ => (response.bowing, vec![Hold::still(Until::Forever); pieces.len()]),
         };
         let plate = Arc::new(plate);
         Ok(Pane { fate, peak_pressure, peak_stress, plate, bowing, grown, pieces, warnings, holds })
@@ -247,7 +257,7 @@ fn across(target: &Target) -> DVec3 {
 impl Pane {
     /// How many of its pieces stay where they are, in the rebate or on an interlayer.
     pub fn staying(&self) -> usize {
-        self.holds.iter().filter(|hold| hold.until == f64::INFINITY).count()
+        self.holds.iter().filter(|hold| hold.until == Until::Forever).count()
     }
 }
 

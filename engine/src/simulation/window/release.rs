@@ -14,7 +14,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::response::{Load, Response, swing};
-use crate::dynamics::{Bowing, Hold, Swing};
+use crate::dynamics::{Bowing, Hold, Swing, Until};
 use crate::fracture::{CrackClock, Pattern, Pieces};
 use crate::geometry::PlaneMoments;
 use crate::structure::Plate;
@@ -76,7 +76,7 @@ pub(super) fn holds(
                 normal: window.orientation * DVec3::Z,
                 closed: if glued { f64::INFINITY } else { closed },
                 swing: None,
-                until: if glued { f64::INFINITY } else { closed },
+                until: if glued { Until::Forever } else { Until::at(closed) },
             };
             if let Some(rebate) = &rebate
                 && rebate.reaches(cracks, index)
@@ -194,7 +194,7 @@ impl Rebate<'_> {
     /// Lets a piece turn about the edge of the rebate from when its outline has closed, its centre having moved at `speed`
     /// [m/s] until then. The edge takes what of that does not turn the piece about it.
     fn keep(&self, hold: &mut Hold, moments: &PlaneMoments, speed: f64) {
-        hold.until = f64::INFINITY;
+        hold.until = Until::Forever;
         let (foot, depth) = self.foot(moments.centroid);
         let arm = depth - self.bite;
         if arm <= 0.0 {
@@ -240,7 +240,7 @@ impl Rebate<'_> {
             end: (end, way, if free { rate } else { 0.0 }),
         });
         if free {
-            hold.until = end;
+            hold.until = Until::at(end);
         }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::targets::LoadQueue;
+use super::super::queue::LoadQueue;
 use crate::dynamics::Bowing;
 use crate::geometry::Sample;
 use crate::structure::Plate;

@@ -59,12 +59,7 @@ class MeshBody:
             position=self.obj.position,
             orientation=self.obj.orientation(),
             mass=self.mass,
-            anchored=self.obj.anchored,
-            occludes=self.obj.occludes,
-            can_rotate=self.obj.can_rotate,
-            friction=self.obj.friction,
-            drag_coefficient=self.obj.drag_coefficient,
-            lift_coefficient=self.obj.lift_coefficient,
+            behaviour=self.obj.behaviour(),
         )
 
     def pieces(self) -> PieceSet:
