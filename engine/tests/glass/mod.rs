@@ -57,12 +57,7 @@ pub fn pane(count: usize, thickness: f64, throw: impl Fn(DVec3) -> (DVec3, DVec3
         state.angular_momentum = into_principal * spin * axes.moments;
         let shape = CollisionShape::of_flat(&own, thickness, axes.object_from_principal);
         shapes.push(shape.clone());
-        bodies.push(ContactBody {
-            shape,
-            friction: 0.5,
-            anchored: false,
-            passes: Passes::Nothing,
-        });
+        bodies.push(ContactBody { shape, friction: 0.5, anchored: false, passes: Passes::Nothing });
         states.push(state);
         corners.push(points);
     }
