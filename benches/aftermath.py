@@ -1,7 +1,7 @@
-"""Time until everything lies still: ten seconds of the brick wall's aftermath, and a thousand shards of a window.
+"""Time until everything lies still: ten seconds of a brick wall, and a thousand shards of a window.
 
-Run with ``.venv/bin/python benches/aftermath.py``: the best of three runs of each. Times are those of ``brisance.simulate``,
-loads and fracture included, writing left out. Exits with 1 where a target is missed.
+Run with ``.venv/bin/python benches/aftermath.py``: the best of three runs of each. Times are those of
+``brisance.simulate``, loads and fracture included, writing left out. Exits with 1 where a target is missed.
 """
 
 from __future__ import annotations
@@ -49,8 +49,9 @@ def main() -> int:
         met = min(times) <= case.most_seconds
         missed += not met
         rest = result.bodies.rest_time_s
+        name = " ".join((case.scene, *case.changes))
         print(
-            f"{' '.join((case.scene, *case.changes))}: {len(result.bodies)} pieces, {result.times[-1]:.2f} s of scene, "
+            f"{name}: {len(result.bodies)} pieces, {result.times[-1]:.2f} s of scene, "
             f"{np.isnan(rest).sum()} still moving, last at rest after {np.nanmax(rest):.2f} s: "
             f"{min(times):.3f} s (at most {case.most_seconds:g}): {'met' if met else 'MISSED'}",
             flush=True,
