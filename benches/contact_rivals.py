@@ -4,7 +4,7 @@ A square metre of glass of 6 mm, broken by us, is thrown down at 10 m/s from hal
 and followed for 120 frames of 1/60 s (24 for 10 000 pieces, without PyBullet's sub-steps there, which would
 take an hour). Each frame is four steps of four sub-steps, in every engine. All three have the same convex
 parts, masses, moments, poses, velocities, friction and bounce. The pieces are the engine's own, from
-``engine/examples/thrown_shards.rs``, which also measures ours: the contact world alone, without loads, air
+``benches/thrown_shards.rs``, which also measures ours: the contact world alone, without loads, air
 or recording. What counts is the processor time of the steps, so that whatever else the machine does matters
 little: all three run on one core. Making the bodies is printed beside it.
 
