@@ -70,7 +70,11 @@ lint: setup $(NODE_PARTS)
 	cd python && ../$(BIN)/python -m mypy.stubtest brisance._engine
 	npm run --prefix viewer --silent check
 
+# What some benchmarks measure beside ours; where one cannot be had, they do without.
+RIVALS := manifold3d multivoro pybullet rapier3d
+
 bench: setup viewer chromium
+	for rival in $(RIVALS); do $(BIN)/pip install --quiet --disable-pip-version-check --only-binary :all: $$rival || true; done
 	cargo bench --package brisance-engine
 	for script in benches/*.py; do $(BIN)/python $$script || exit 1; done
 

@@ -35,6 +35,8 @@ class Dispersal:
     """Distance of the farthest piece [m]; 0 if none moved."""
     half_mass: float
     """Half of the mass that moved ends within this distance [m]; 0 if none moved."""
+    still_moving: int
+    """How many of the pieces that moved had not come to rest in the last frame: they will end elsewhere."""
 
 
 def dispersal(result: Result) -> Dispersal:
@@ -59,7 +61,8 @@ def dispersal(result: Result) -> Dispersal:
     order = np.argsort(distance, kind="stable")
     total = np.cumsum(weights[order])
     half = float(distance[order][np.searchsorted(total, 0.5 * total[-1])]) if len(total) else 0.0
-    return Dispersal(origin, edges, count, masses, moved, farthest, half)
+    still_moving = int(np.isnan(result.bodies.rest_time_s[moved]).sum())
+    return Dispersal(origin, edges, count, masses, moved, farthest, half, still_moving)
 
 
 def ring_edges(farthest: float) -> NDArray[np.float64]:
@@ -79,6 +82,7 @@ def summary(result: Result) -> dict[str, Any]:
     return {
         "origin_m": found.origin.tolist(),
         "moved": int(found.moved.sum()),
+        "still_moving": found.still_moving,
         "moved_mass_kg": float(result.bodies.mass_kg[found.moved].sum()),
         "farthest_m": found.farthest,
         "half_mass_within_m": found.half_mass,

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
+from stillness import Fault, faults
 
 import brisance as br
 from brisance.dispersal import dispersal, ring_edges, summary
@@ -41,6 +44,45 @@ def test_no_brick_is_inside_another(wall: br.Result) -> None:
     assert apart[np.triu_indices(len(places), 1)].min() > 0.10 - 2e-3
 
 
+def test_nothing_that_lies_still_looks_wrong(wall: br.Result) -> None:
+    """No brick or crate jitters, pops, floats or sinks by a millimetre, or lies 3 mm deep in another."""
+    for result in (wall, br.simulate(br.load(SCENES / "car_park.toml"))):
+        assert [str(fault) for fault in faults(result, overlap=3e-3)] == []
+
+
+def test_glass_on_the_floor_looks_right() -> None:
+    """No shard jitters, pops or floats. Few sink in by more than a millimetre, none by four.
+
+    Shards that cross edge on at some metres a second may lock into each other: at most one in thirty does.
+    """
+    result = br.simulate(br.load(SCENES / "window_aftermath.toml"))
+    found = faults(result)
+    count = Counter(fault.kind for fault in found)
+    assert count["jitters"] == count["pops"] == count["floats"] == 0
+    assert 100 * count["sinks"] <= len(result.bodies)
+    assert all(fault.size < 4e-3 for fault in found if fault.kind == "sinks")
+    assert 30 * count["overlaps"] <= len(result.bodies)
+
+
+def test_every_fault_is_found_where_it_is_put(wall: br.Result) -> None:
+    """The lowest brick, moved about after all has come to rest."""
+    frames = len(wall.times)
+    # The last half second: all lie still.
+    late = frames - round(0.5 * wall.frame_rate)
+    low = int(np.argmin(wall.positions[-1, :, 1]))
+    name = wall.bodies.names[low]
+
+    def kinds(shift: np.ndarray, since: int) -> list[Fault]:
+        positions = wall.positions.copy()
+        positions[since:, low, 1] += shift
+        return [f for f in faults(dataclasses.replace(wall, positions=positions)) if f.body == name]
+
+    assert {f.kind for f in kinds(np.float32(-3e-3), late)} >= {"sinks"}
+    assert {f.kind for f in kinds(np.float32(0.5), frames - 2)} >= {"pops", "floats"}
+    shaken = np.where(np.arange(frames - late) % 2, np.float32(3e-3), np.float32(0.0))
+    assert {f.kind for f in kinds(shaken, late)} >= {"jitters"}
+
+
 def test_the_report_says_where_it_all_lies(wall: br.Result, tmp_path: Path) -> None:
     wall.write(tmp_path / "wall.json")
     found = json.loads((tmp_path / "wall.json").read_text())["dispersal"]
@@ -49,6 +91,7 @@ def test_the_report_says_where_it_all_lies(wall: br.Result, tmp_path: Path) -> N
     masses = np.array([ring["mass_kg"] for ring in found["rings"]])
     assert counts.sum() == found["moved"] <= len(wall.bodies)
     assert math.isclose(masses.sum(), found["moved_mass_kg"])
+    assert found["still_moving"] == 0
     assert found["half_mass_within_m"] <= found["farthest_m"] <= found["rings"][-1]["to_m"]
     # The charge stands on -z: more comes down on +z, which is the sixth sector of eight.
     assert masses[:, 5:8].sum() > masses[:, 1:4].sum()
@@ -85,6 +128,17 @@ def test_a_run_that_does_not_come_to_rest_says_so() -> None:
     result = br.simulate(br.load(WALL, ["time.longest=0.3"]))
     assert result.times[-1] == pytest.approx(0.3)
     assert any("still move" in warning for warning in result.warnings)
+    assert summary(result)["still_moving"] == len(result.bodies)
+
+
+def test_a_dispersal_of_nothing_is_empty() -> None:
+    """Neither a wall that stays nor a scene without pieces has any."""
+    whisper = br.load(WALL, ["charge.0.mass=0.001"])
+    for scene in (whisper, br.Scene(charges=[br.Charge(mass=1, position=(0, 1, 0))])):
+        found = summary(br.simulate(scene))
+        assert found["moved"] == found["still_moving"] == 0
+        assert found["farthest_m"] == found["half_mass_within_m"] == 0.0
+        assert all(sum(ring["count"]) == 0 for ring in found["rings"])
 
 
 def test_free_flight_comes_to_rest_too() -> None:

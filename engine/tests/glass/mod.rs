@@ -15,6 +15,8 @@ pub struct Glass {
     pub states: Vec<RigidBody>,
     /// Corners of each shard about its centre of mass in principal axes [m].
     pub corners: Vec<Vec<DVec3>>,
+    /// What each shard is to collision detection.
+    pub shapes: Vec<CollisionShape>,
 }
 
 /// A square metre of glass of this thickness [m] in about `count` pieces, standing half a metre above the ground. Every
@@ -24,7 +26,7 @@ pub fn pane(count: usize, thickness: f64, throw: impl Fn(DVec3) -> (DVec3, DVec3
     let recipe = Recipe { fineness: Fineness::Pieces(count), ..Recipe::default() };
     let pattern = recipe.grow(&square).unwrap().pattern;
     let pieces = Pieces::of(&pattern, thickness, 2500.0).unwrap();
-    let (mut bodies, mut states, mut corners) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut bodies, mut states, mut corners, mut shapes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut outline = Polygon::default();
     for index in 0..pieces.len() {
         pattern.fragment(index).outline(&mut outline);
@@ -53,12 +55,9 @@ pub fn pane(count: usize, thickness: f64, throw: impl Fn(DVec3) -> (DVec3, DVec3
             reach: points.iter().map(|p| p.length()).fold(0.0, f64::max),
         };
         state.angular_momentum = into_principal * spin * axes.moments;
-        bodies.push(ContactBody {
-            shape: CollisionShape::of_flat(&own, thickness, axes.object_from_principal),
-            friction: 0.5,
-            anchored: false,
-            passes: Passes::Nothing,
-        });
+        let shape = CollisionShape::of_flat(&own, thickness, axes.object_from_principal);
+        shapes.push(shape.clone());
+        bodies.push(ContactBody { shape, friction: 0.5, anchored: false, passes: Passes::Nothing });
         states.push(state);
         corners.push(points);
     }
@@ -67,7 +66,7 @@ pub fn pane(count: usize, thickness: f64, throw: impl Fn(DVec3) -> (DVec3, DVec3
     for (index, state) in states.iter().enumerate() {
         world.join(index, state, true);
     }
-    Glass { world, states, corners }
+    Glass { world, states, corners, shapes }
 }
 
 impl Glass {
@@ -138,10 +137,11 @@ pub fn drop_onto_ground(shape: CollisionShape, outline: &Polygon, thickness: f64
         reach,
     };
     let corners = points.iter().map(|&p| axes.object_from_principal.conjugate() * p).collect();
+    let shapes = vec![moved.clone()];
     let body = ContactBody { shape: moved, friction: 0.5, anchored: false, passes: Passes::Nothing };
     let mut world = ContactWorld::new(vec![body], Some(Ground { height: 0.0, friction: 0.5 }), DVec3::ZERO);
     world.join(0, &state, true);
-    let mut glass = Glass { world, states: vec![state], corners: vec![corners] };
+    let mut glass = Glass { world, states: vec![state], corners: vec![corners], shapes };
     for _ in 0..700 {
         glass.step(1.0 / 240.0);
     }

@@ -30,7 +30,9 @@ def draw(picture: Picture, result: Result) -> None:
     above, rings = picture.subplots(1, 2, width_ratios=(1.6, 1.0))
     _draw_from_above(above, result)
     _draw_rings(rings, result)
-    picture.suptitle(f"{result.scene.name}, at rest after {result.times[-1]:.1f} s")
+    moving = dispersal(result).still_moving
+    state = f"{moving} pieces still moving" if moving else "at rest"
+    picture.suptitle(f"{result.scene.name}, {state} after {result.times[-1]:.1f} s")
 
 
 def _draw_from_above(axes: Axes, result: Result) -> None:
@@ -38,7 +40,9 @@ def _draw_from_above(axes: Axes, result: Result) -> None:
     from scipy.spatial import ConvexHull
 
     found = dispersal(result)
-    for index, mesh in enumerate(result.meshes):
+    # What lies on others is drawn over them.
+    for index in np.argsort(result.positions[-1, :, 1], kind="stable"):
+        mesh = result.meshes[index]
         for frame, face, edge in ((0, "none", style.GREY), (-1, style.BLUE, "white")):
             turn = result.orientations[frame, index].astype(np.float64)
             points = rotate(turn, mesh.points.astype(np.float64)) + result.positions[frame, index]
