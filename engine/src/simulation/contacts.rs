@@ -10,19 +10,15 @@ use rayon::prelude::*;
 use super::targets::Target;
 use super::{Phase, Simulation};
 use crate::dynamics::contact::{
-    Bond, CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes, REACH, bonds_of_bricks,
+    Bond, CollisionShape, ContactBody, ContactWorld, Passes, REACH, bonds_of_bricks, step_at,
 };
 use crate::dynamics::ground::CALM_SPEED;
 use crate::dynamics::{RigidBody, Winds};
 use crate::geometry::MassProperties;
 use crate::scene::{Body, Scene, Shape};
 
-/// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
-const TRAVEL: f64 = 0.25;
 /// Longest step of bodies that fly freely once all loads are over [s].
 const CALM_STEP: f64 = 5e-3;
-/// The shortest step for that [s].
-const SHORTEST_STEP: f64 = 1e-3;
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
 const FELT_SPEED: f64 = 0.3;
 /// For how long a body has to be calm to be at rest [s].
@@ -83,14 +79,15 @@ impl Contacts {
         });
         let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (bounds.0 + bounds.1) };
         let mut world = ContactWorld::new(bodies, scene.ground, origin);
+        let track = Track { moved: 0.0, asleep: true, far: false };
+        let mut tracks = vec![track; targets.len()];
         for (index, (body, target)) in scene.bodies.iter().zip(targets).enumerate() {
             if body.hold.is_none() {
-                world.join(index, &target.body, false);
+                tracks[index].far = !world.join(index, &target.body, false);
             }
         }
         world.bind(&bonds(scene));
-        let track = Track { moved: 0.0, asleep: true, far: false };
-        Self { world, tracks: vec![track; targets.len()], fastest: 0.0, origin }
+        Self { world, tracks, fastest: 0.0, origin }
     }
 }
 
@@ -140,7 +137,7 @@ impl Simulation {
         };
         let loaded = self.lives.iter().any(|life| life.is_stirred(t0, t1))
             || self.later.as_ref().is_some_and(|later| later.comes(t1, |i| self.bodies.get(i)));
-        let short = (TRAVEL / contacts.fastest).clamp(SHORTEST_STEP, LONGEST_STEP);
+        let short = step_at(contacts.fastest);
         let steps = libm::ceil((t1 - t0) / short - 1e-9).max(1.0) as usize;
         if loaded { steps.max(self.steps_per_frame) } else { steps }
     }
@@ -163,8 +160,8 @@ impl Simulation {
             self.phases[index] = Phase::Free;
             self.lives[index].change = None;
             let contacts = self.contacts.as_mut().expect("bodies touch");
-            contacts.world.join(index, &self.bodies.get(index), true);
-            contacts.tracks[index] = Track { moved: t1, asleep: false, far: false };
+            let far = !contacts.world.join(index, &self.bodies.get(index), true);
+            contacts.tracks[index] = Track { moved: t1, asleep: false, far };
             self.part(index, t1);
         }
         for index in 0..self.lives.len() {
@@ -191,6 +188,7 @@ impl Simulation {
         }
         let mut body = self.bodies.get(index);
         if track.far {
+            contacts.tracks[index].asleep = false;
             if loaded {
                 self.world.fly_loaded(&mut body, life, t0, t1);
             } else {
@@ -228,7 +226,7 @@ impl Simulation {
                 body.velocity = velocity;
                 body.angular_momentum = momentum(&body, spin);
                 fastest = fastest.max(velocity.length());
-                if velocity.length() + spin.length() * body.reach > CALM_SPEED {
+                if !moved.still && velocity.length() + spin.length() * body.reach > CALM_SPEED {
                     track.moved = t1;
                 }
             }
@@ -295,6 +293,16 @@ impl Simulation {
                 let rest = if stayed { 0.0 } else { track.moved };
                 life.facts.rest_time = if track.rests(now) { rest } else { f64::NAN };
             }
+        }
+        let far =
+            self.contacts.as_ref().map_or(0, |contacts| contacts.tracks.iter().filter(|t| t.far).count());
+        if far > 0 {
+            self.warnings.push(format!(
+                "{far} of {} bodies are more than {} km from the middle of the scene or too large: they meet only the \
+                 ground",
+                self.lives.len(),
+                REACH / 1e3
+            ));
         }
         let moving = self.lives.iter().filter(|life| life.facts.rest_time.is_nan()).count();
         if self.until_rest && moving > 0 {
