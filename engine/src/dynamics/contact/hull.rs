@@ -20,12 +20,12 @@ const GRIDS: [i32; 6] = [2048, 1024, 512, 256, 64, 16];
 /// A point off a face by less than this could be taken for one in it [half the cube].
 const DOUBT: f64 = 2e-5;
 /// Points that reach less far from a plane are as good as flat [half the cube].
-const FLAT: f64 = 0.05;
+const FLAT: f64 = 0.02;
 /// Most corners of a hull; Box3D holds 128 edges.
 pub const MOST_POINTS: usize = 42;
 
 /// Half the thickness below which a body counts as one of that thickness [m]; contacts miss what is much thinner.
-pub const THINNEST: f64 = 1e-4;
+pub const THINNEST: f64 = 2.5e-4;
 
 /// A hull in the cube, and how it comes to its place: scaled, then moved.
 pub struct PlacedHull {
@@ -44,7 +44,7 @@ pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
     let (low, high) = bounds(points);
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     // `min` and `max` pass over what is not a number.
-    if !points.iter().all(|p| p.is_finite()) || half.min_element() < THINNEST {
+    if !points.iter().all(|p| p.is_finite()) || half.min_element() < 0.04 * THINNEST {
         return None;
     }
     let (chosen, grid) = GRIDS.into_iter().find_map(|grid| {

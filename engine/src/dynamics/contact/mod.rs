@@ -221,7 +221,9 @@ impl ContactWorld {
         let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
         let surface = surface(foundation, body.friction, body.passes);
         let mut hulls = 0;
-        if let CollisionShape::Hulls(all) = &body.shape {
+        let (low, high) = body.shape.bounds();
+        let thin = 0.5 * (high - low).min_element() < hull::THINNEST;
+        if let (CollisionShape::Hulls(all), false) = (&body.shape, thin) {
             for placed in all.iter().filter_map(|points| hull::hull_of(points)) {
                 let (place, scale) = (placed.place, placed.scale);
                 self.world
@@ -232,7 +234,6 @@ impl ContactWorld {
         }
         if hulls == 0 {
             // A box, or what is so thin that it has no hull.
-            let (low, high) = body.shape.bounds();
             let half = single((0.5 * (high - low)).max(DVec3::splat(hull::THINNEST)));
             let slab = BoxHull::offset(half.x, half.y, half.z, single(0.5 * (low + high))).expect(SOUND);
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
