@@ -116,7 +116,7 @@ impl Simulation {
                 break;
             }
         }
-        self.motion.conclude(&mut self.state, now);
+        self.warnings.extend(self.motion.conclude(&mut self.state, now));
         if self.time.until_rest {
             self.warnings.extend(warnings::moving(&self.state, now));
         }

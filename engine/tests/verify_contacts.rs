@@ -275,8 +275,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 250, ..ProptestConfig::default() })]
 
     /// Boxes of any size thrown at each other from anywhere come down: none is lost, none ends in the ground or in another
-    /// by more than 2 mm, and energy never rises by more than a twentieth of what there was (a hundredth and a half was
-    /// seen once): the library turns a spinning body about changing axes with one sweep.
+    /// by more than 2 mm, and energy never rises by more than a fiftieth of what there was: a heavy box that hits a light
+    /// one gains some, since contacts are solved in a few sweeps.
     #[test]
     fn whatever_is_thrown_comes_to_lie_on_the_ground(
         boxes in prop::collection::vec(
@@ -298,7 +298,7 @@ proptest! {
         for _ in 0..4800 {
             yard.step(STEP);
             let now = yard.energy();
-            prop_assert!(now < before + 5e-2 * start, "{before} J rise to {now} J of {start}");
+            prop_assert!(now < before + 2e-2 * start, "{before} J rise to {now} J of {start}");
             before = before.min(now);
         }
         // Nearly all sleep by then; one that rocks in a pile may not yet, but hardly moves.

@@ -12,8 +12,9 @@ use super::motion::Motion;
 use super::state::State;
 use super::steps::steps_of;
 use super::targets::Target;
+use super::warnings;
 use crate::dynamics::contact::{
-    Bond, CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes, REACH, bonds_of_bricks,
+    Bond, CollisionShape, ContactBody, ContactWorld, Passes, REACH, bonds_of_bricks, step_at,
 };
 use crate::dynamics::ground::CALM_SPEED;
 use crate::dynamics::{Bodies, RigidBody, Winds};
@@ -21,10 +22,6 @@ use crate::error::Result;
 use crate::geometry::MassProperties;
 use crate::scene::{Body, Scene, Shape};
 
-/// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
-const TRAVEL: f64 = 0.25;
-/// The shortest step for that [s].
-const SHORTEST_STEP: f64 = 1e-3;
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
 const FELT_SPEED: f64 = 0.3;
 /// For how long a body has to be calm to be at rest [s].
@@ -94,22 +91,15 @@ impl Contacts {
         });
         let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (bounds.0 + bounds.1) };
         let mut world = ContactWorld::new(bodies, scene.ground, origin);
+        let track = Track { moved: 0.0, asleep: true, far: false };
+        let mut tracks = vec![track; targets.len()];
         for (index, (body, target)) in scene.bodies.iter().zip(targets).enumerate() {
             if body.hold.is_none() {
-                world.join(index, &target.body, false);
+                tracks[index].far = !world.join(index, &target.body, false);
             }
         }
         world.bind(&bonds(scene));
-        let track = Track { moved: 0.0, asleep: true, far: false };
-        Self {
-            world,
-            tracks: vec![track; targets.len()],
-            loaded,
-            fastest: 0.0,
-            origin,
-            frames,
-            leaving: Vec::new(),
-        }
+        Self { world, tracks, loaded, fastest: 0.0, origin, frames, leaving: Vec::new() }
     }
 }
 
@@ -151,8 +141,7 @@ fn bonds(scene: &Scene) -> Vec<Bond> {
 
 impl Motion for Contacts {
     fn steps(&self, state: &State, t0: f64, t1: f64) -> usize {
-        let short = (TRAVEL / self.fastest).clamp(SHORTEST_STEP, LONGEST_STEP);
-        let steps = steps_of(t1 - t0, short);
+        let steps = steps_of(t1 - t0, step_at(self.fastest));
         if state.is_stirred(t0, t1) { steps.max(self.loaded) } else { steps }
     }
 
@@ -172,8 +161,8 @@ impl Motion for Contacts {
         for index in freed {
             state.phases[index] = Phase::Free;
             state.lives[index].change = None;
-            self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
-            self.tracks[index] = Track { moved: t1, asleep: false, far: false };
+            let far = !self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
+            self.tracks[index] = Track { moved: t1, asleep: false, far };
             self.leaving.push(index);
             state.part(index, t1);
         }
@@ -188,13 +177,14 @@ impl Motion for Contacts {
         state.rests(now, |index| self.tracks[index].rests(now))
     }
 
-    fn conclude(&self, state: &mut State, now: f64) {
+    fn conclude(&self, state: &mut State, now: f64) -> Option<String> {
         for (index, (life, track)) in state.lives.iter_mut().zip(&self.tracks).enumerate() {
             let shift = state.bodies.get(index).position.distance(life.place.origin);
             let stayed = !life.away && shift < STAYED;
             let rest = if stayed { 0.0 } else { track.moved };
             life.facts.rest_time = if track.rests(now) { rest } else { f64::NAN };
         }
+        warnings::far(self.tracks.iter().filter(|track| track.far).count(), state.len(), REACH)
     }
 }
 
@@ -208,6 +198,7 @@ impl Contacts {
         }
         let mut body = state.bodies.get(index);
         if track.far {
+            self.tracks[index].asleep = false;
             if loaded {
                 world.fly_loaded(&mut body, life, t0, t1);
             } else {
@@ -245,7 +236,7 @@ impl Contacts {
                 body.velocity = velocity;
                 body.angular_momentum = momentum(&body, spin);
                 fastest = fastest.max(velocity.length());
-                if velocity.length() + spin.length() * body.reach > CALM_SPEED {
+                if !moved.still && velocity.length() + spin.length() * body.reach > CALM_SPEED {
                     track.moved = t1;
                 }
             }

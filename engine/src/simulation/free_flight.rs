@@ -60,7 +60,9 @@ impl Motion for FreeFlight {
     }
 
     /// Bodies note it themselves when they come to rest.
-    fn conclude(&self, _: &mut State, _: f64) {}
+    fn conclude(&self, _: &mut State, _: f64) -> Option<String> {
+        None
+    }
 }
 
 /// One step of every body by itself. Returns the gravest of what concerns others.

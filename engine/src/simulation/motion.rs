@@ -27,8 +27,9 @@ pub(super) trait Motion {
     /// Whether all loads are over at `now` [s] and every body rests.
     fn rests(&self, state: &State, now: f64) -> bool;
 
-    /// Notes what is only known at the end of a run, at `now` [s]: when bodies came to rest for good.
-    fn conclude(&self, state: &mut State, now: f64);
+    /// Notes what is only known at the end of a run, at `now` [s]: when bodies came to rest for good. Returns what the user
+    /// should know of how they moved.
+    fn conclude(&self, state: &mut State, now: f64) -> Option<String>;
 }
 
 /// Refuses a scene whose numbers are beyond the way in which its bodies move.

@@ -45,3 +45,15 @@ pub(super) fn moving(state: &State, now: f64) -> Option<String> {
         )
     })
 }
+
+/// Of bodies that are too far from the others, or too large, to meet more than the ground. `reach` [m] is how far is too
+/// far.
+pub(super) fn far(count: usize, of: usize, reach: f64) -> Option<String> {
+    (count > 0).then(|| {
+        format!(
+            "{count} of {of} bodies are more than {} km from the middle of the scene or too large: they meet only the \
+             ground",
+            reach / 1e3
+        )
+    })
+}

@@ -1,19 +1,31 @@
 //! Convex hulls for Box3D, from points that its builder is sure to cope with.
 //!
-//! The builder works in single precision with a tolerance of rounding, and does not come to an end on some sets of
-//! points that nearly lie in a plane, such as a thin shard's. So points are first stretched to a cube, snapped to a grid
-//! and thinned out; the hull is built there and then scaled back.
+//! The builder works in single precision with a tolerance of rounding. It does not come to an end on some sets of points
+//! that nearly lie in a plane. So points are stretched to a cube and snapped to a grid, where whole numbers tell exactly
+//! whether four points lie in a plane; the grid is made coarser until no point lies off a face of the hull by so little
+//! that rounding could hide it. The hull is built there and scaled back.
 
 use boxddd::{Hull, Transform, Vec3};
 use glam::DVec3;
 
+use super::foundation;
+use super::shape::bounds;
+
 /// Half the edge of the cube in which hulls are built, in Box3D's units of length. Box3D scales shapes by no less than
 /// 0.01, so that bodies of a tenth of a millimetre come out right.
 const CUBE: f64 = 0.01;
-/// Grid steps along half the cube.
-const GRID: f64 = 2048.0;
+/// Grid steps along half the cube, the finest first. On the last one a point that does not lie in the plane of three
+/// others is off it by 3e-5 of half the cube or more; the builder takes 6e-6 for nothing.
+const GRIDS: [i32; 6] = [2048, 1024, 512, 256, 64, 16];
+/// A point off a face by less than this could be taken for one in it [half the cube].
+const DOUBT: f64 = 2e-5;
+/// Points that reach less far from a plane are as good as flat [half the cube].
+const FLAT: f64 = 0.02;
 /// Most corners of a hull; Box3D holds 128 edges.
 pub const MOST_POINTS: usize = 42;
+
+/// Half the thickness below which a body counts as one of that thickness [m]; contacts miss what is much thinner.
+pub const THINNEST: f64 = 2.5e-4;
 
 /// A hull in the cube, and how it comes to its place: scaled, then moved.
 pub struct PlacedHull {
@@ -27,33 +39,99 @@ pub struct PlacedHull {
     pub volume: f64,
 }
 
-/// The hull of points [m]; `None` where they lie in a plane, or nearly.
+/// The hull of points [m]; `None` where they lie in a plane, or nearly, or are not numbers.
 pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
-    let (low, high) = points
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+    let (low, high) = bounds(points);
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    if !half.is_finite() || half.min_element() <= 1e-5 * half.max_element().max(1e-3) {
+    // `min` and `max` pass over what is not a number.
+    if !points.iter().all(|p| p.is_finite()) || half.min_element() < 0.04 * THINNEST {
         return None;
     }
-    let snapped: Vec<[i32; 3]> = {
-        let on_grid = |p: &DVec3| ((*p - middle) / half * GRID).to_array().map(|c| libm::rint(c) as i32);
-        let mut all: Vec<[i32; 3]> = points.iter().map(on_grid).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    };
-    let chosen = if snapped.len() > MOST_POINTS { outermost(&snapped) } else { snapped };
-    let to_cube = |c: i32| (f64::from(c) * CUBE / GRID) as f32;
+    let (chosen, grid) = GRIDS.into_iter().find_map(|grid| {
+        let chosen = snapped(points, middle, half, grid);
+        (grid == GRIDS[GRIDS.len() - 1] || !in_doubt(&chosen, grid)).then_some((chosen, grid))
+    })?;
+    let to_cube = |c: i32| (f64::from(c) * CUBE / f64::from(grid)) as f32;
     let corners: Vec<Vec3> =
         chosen.iter().map(|p| Vec3::new(to_cube(p[0]), to_cube(p[1]), to_cube(p[2]))).collect();
+    if is_flat(&chosen, grid) {
+        return None;
+    }
+    // Box3D builds nothing before it is set up.
+    foundation();
     let hull = Hull::from_points(&corners, MOST_POINTS as i32).ok()?;
     let scale = half / CUBE;
-    let volume = f64::from(hull.as_hull_data().volume) * scale.x * scale.y * scale.z;
+    let part = f64::from(hull.as_hull_data().volume) / (8.0 * CUBE * CUBE * CUBE);
+    if part.is_nan() || part <= 0.0 {
+        return None;
+    }
+    let volume = part * 8.0 * half.x * half.y * half.z;
     let place =
         Transform::new(Vec3::new(middle.x as f32, middle.y as f32, middle.z as f32), boxddd::Quat::IDENTITY);
     let scale = Vec3::new(scale.x as f32, scale.y as f32, scale.z as f32);
     Some(PlacedHull { hull, place, scale, volume })
+}
+
+/// Points on a grid, each once and at most [`MOST_POINTS`] of them.
+fn snapped(points: &[DVec3], middle: DVec3, half: DVec3, grid: i32) -> Vec<[i32; 3]> {
+    let on_grid =
+        |p: &DVec3| ((*p - middle) / half * f64::from(grid)).to_array().map(|c| libm::rint(c) as i32);
+    let mut all: Vec<[i32; 3]> = points.iter().map(on_grid).collect();
+    all.sort_unstable();
+    all.dedup();
+    if all.len() > MOST_POINTS { outermost(&all) } else { all }
+}
+
+/// Twice the area of a triangle times the normal of its plane.
+fn normal(a: [i32; 3], b: [i32; 3], c: [i32; 3]) -> [i64; 3] {
+    let less = |p: [i32; 3]| [0, 1, 2].map(|k| i64::from(p[k] - a[k]));
+    let (u, v) = (less(b), less(c));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// How far a point lies off the plane through `from`, times the length of the normal. Exact.
+fn off(normal: [i64; 3], from: [i32; 3], point: [i32; 3]) -> i64 {
+    (0..3).map(|k| normal[k] * i64::from(point[k] - from[k])).sum()
+}
+
+/// Whether some point is so little off a face of the hull that rounding could hide it.
+fn in_doubt(points: &[[i32; 3]], grid: i32) -> bool {
+    let triples = (0..points.len())
+        .flat_map(|i| (i + 1..points.len()).flat_map(move |j| (j + 1..points.len()).map(move |k| (i, j, k))));
+    triples.into_iter().any(|(i, j, k)| {
+        let normal = normal(points[i], points[j], points[k]);
+        let length = libm::sqrt(normal.iter().map(|&c| c as f64 * c as f64).sum());
+        let doubt = (DOUBT * f64::from(grid) * length) as i64;
+        let (mut above, mut below, mut doubtful) = (false, false, false);
+        for &point in points {
+            let off = off(normal, points[i], point);
+            above |= off > doubt;
+            below |= off < -doubt;
+            doubtful |= off != 0 && off.abs() <= doubt;
+            if above && below {
+                return false;
+            }
+        }
+        doubtful
+    })
+}
+
+/// Whether points in the cube lie in a plane or on a line, or nearly: how far they reach from the plane through the two
+/// that are farthest apart and the one farthest from those.
+fn is_flat(points: &[[i32; 3]], grid: i32) -> bool {
+    let farthest =
+        |far: &dyn Fn([i32; 3]) -> f64| points.iter().copied().max_by(|&a, &b| far(a).total_cmp(&far(b)));
+    let length = |v: [i64; 3]| libm::sqrt(v.iter().map(|&c| c as f64 * c as f64).sum());
+    let apart = |a: [i32; 3], b: [i32; 3]| length([0, 1, 2].map(|k| i64::from(a[k] - b[k])));
+    let ends = points.first().and_then(|&any| {
+        let a = farthest(&|p| apart(any, p))?;
+        Some((a, farthest(&|p| apart(a, p))?))
+    });
+    let Some((a, b)) = ends else { return true };
+    let Some(c) = farthest(&|p| length(normal(a, b, p))) else { return true };
+    let normal = normal(a, b, c);
+    let reach = points.iter().map(|&p| off(normal, a, p).unsigned_abs()).max().unwrap_or(0) as f64;
+    reach <= FLAT * f64::from(grid) * length(normal)
 }
 
 /// The points farthest out along [`MOST_POINTS`] directions spread evenly (a Fibonacci lattice), each once.

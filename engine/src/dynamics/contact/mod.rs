@@ -6,13 +6,14 @@
 //!
 //! The engine works in single precision; places are taken about the middle of the scene. It runs on one thread: with
 //! several its results were seen to differ from run to run, and a thousand bodies gained nothing from a second one
-//! (`docs/decisions/contacts.md`). So the bits are the same for any number of threads, and Box3D avoids the platform's
+//! (`docs/decisions/0001-contacts.md`). So the bits are the same for any number of threads, and Box3D avoids the platform's
 //! mathematics library and fused operations.
 
 mod cells;
 mod hull;
 mod mortar;
 mod shape;
+mod standstill;
 
 use std::collections::HashMap;
 
@@ -27,6 +28,7 @@ use super::{GRAVITY, RigidBody};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
 pub use shape::CollisionShape;
+use standstill::Standstill;
 
 /// Box3D's tolerances are for bodies of a metre; ours are this much finer: its slop is 0.25 mm, the distance at which
 /// contacts begin 1 mm.
@@ -34,17 +36,38 @@ const FINENESS: f32 = 0.05;
 /// Stiffness of contacts [Hz], their damping ratio, and how fast an overlap is driven apart at most [m/s].
 ///
 /// Bodies that overlap when they are freed gain no more speed than the last.
-const CONTACT: (f32, f32, f32) = (240.0, 10.0, 0.4);
+const CONTACT: (f32, f32, f32) = (146.0, 10.0, 0.4);
 /// A body all of which moves slower than this for half a second falls asleep [m/s].
 const SLEEP_SPEED: f32 = 0.03;
+/// The same for a body that gets nowhere, however it trembles [m/s].
+const TREMOR: f32 = 1.0;
 /// Faster than any body a blast throws [m/s].
 const FASTEST: f32 = 1e4;
-/// Longest sub-step of the contacts [s].
-const SUBSTEP: f64 = 1.0 / 960.0;
+/// Longest sub-step of the contacts [s]: Box3D makes contacts no stiffer than an eighth of its rate. With twice that,
+/// heavy bodies that hit light ones were seen to gain 5 % of a scene's energy.
+const SUBSTEP: f64 = 1.0 / 1920.0;
 /// Longest step [s]; with the sub-steps it gives.
-pub const LONGEST_STEP: f64 = 4.0 * SUBSTEP;
+pub const LONGEST_STEP: f64 = 8.0 * SUBSTEP;
+/// Shortest step for the fastest bodies [s].
+const SHORTEST_STEP: f64 = 2.5e-4;
+/// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
+const TRAVEL: f64 = 0.25;
 /// Bodies farther than this from the middle of the scene do not meet others any more [m].
 pub const REACH: f64 = 3000.0;
+/// A body whose parts are farther from its centre of mass than this does not meet others [m].
+const LARGEST: f64 = 1000.0;
+/// Fastest turn [rad/s]. Box3D turns the axes of a spinning body by one Newton step a sub-step. That loses energy as long
+/// as a body turns by no more than 0.2 rad in a sub-step, and gains some beyond.
+const FASTEST_TURN: f64 = 0.2 / SUBSTEP;
+/// Moments of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms their product, in single
+/// precision.
+const MOMENTS: (f64, f64) = (3e-11, 3e11);
+/// The same for masses.
+const MASSES: (f64, f64) = (1e-12, 1e15);
+/// A body's smallest moment of inertia is at least this part of its largest.
+const SLENDER: f64 = 1e-4;
+/// About what the largest body's moment of inertia becomes in Box3D, out of that range.
+const LARGEST_MOMENT: f64 = 1e9;
 /// Half the width of the ground, and its depth [m].
 const GROUND: (f32, f32) = (4000.0, 20.0);
 
@@ -84,13 +107,15 @@ impl Passes {
     }
 }
 
-/// Where a body is and how it moves after a step, and whether it has just fallen asleep.
+/// A body that was awake in a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Moved {
     /// Which body.
     pub index: usize,
     /// Whether it fell asleep in this step.
     pub asleep: bool,
+    /// Whether it gets nowhere, however fast it trembles.
+    pub still: bool,
 }
 
 /// All bodies that can touch.
@@ -99,6 +124,10 @@ pub struct ContactWorld {
     bodies: Vec<ContactBody>,
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
+    standstills: Vec<Standstill>,
+    /// Box3D's masses are this many times ours. Only their ratios matter to motion, and the moments of a splinter of
+    /// glass are so small that their product is nothing in single precision: it would turn forever.
+    gain: f64,
     bonds: Bonds,
     origin: DVec3,
     events: Vec<BodyMoveEvent>,
@@ -107,12 +136,22 @@ pub struct ContactWorld {
 /// What Box3D refuses is a mistake of ours, since scenes are checked before.
 const SOUND: &str = "Box3D takes what the scene's checks let through";
 
+/// Box3D with its unit of length; the same for all worlds, and for hulls, of a process.
+fn foundation() -> &'static Foundation {
+    let config =
+        FoundationConfig { length_units_per_meter: FINENESS, stall_threshold: StallThreshold::Disabled };
+    Foundation::initialize(config).expect(SOUND)
+}
+
+/// The longest step [s] where the fastest body has this speed [m/s].
+pub fn step_at(fastest: f64) -> f64 {
+    (TRAVEL / fastest).clamp(SHORTEST_STEP, LONGEST_STEP)
+}
+
 impl ContactWorld {
     /// A world with the ground alone; `origin` is the middle of the scene [m]. Bodies come by [`join`](Self::join).
     pub fn new(bodies: Vec<ContactBody>, ground: Option<Ground>, origin: DVec3) -> Self {
-        let config =
-            FoundationConfig { length_units_per_meter: FINENESS, stall_threshold: StallThreshold::Disabled };
-        let foundation = Foundation::initialize(config).expect(SOUND);
+        let foundation = foundation();
         let (hertz, damping, speed) = CONTACT;
         let settings = foundation
             .world_def_builder()
@@ -122,8 +161,9 @@ impl ContactWorld {
             .contact_tuning(hertz, damping, speed)
             .maximum_linear_speed(FASTEST);
         let mut world = foundation.create_world(settings.build().expect(SOUND)).expect(SOUND);
-        if let Some(ground) = ground {
-            let (half, depth) = GROUND;
+        let (half, depth) = GROUND;
+        let within_reach = |ground: &Ground| (ground.height - origin.y).abs() < REACH;
+        if let Some(ground) = ground.filter(within_reach) {
             let top = (ground.height - origin.y) as f32;
             let below = foundation.body_def_builder().position([0.0, top - 0.5 * depth, 0.0]);
             let id = world.create_body(below.build().expect(SOUND)).expect(SOUND);
@@ -133,21 +173,33 @@ impl ContactWorld {
                 .expect(SOUND);
         }
         let ids = vec![None; bodies.len()];
+        let largest = bodies.iter().filter(|body| !body.anchored).map(|body| body.shape.reach());
+        let largest = largest.fold(0.0, f64::max).clamp(1e-4, LARGEST);
+        // As a ball of stone.
+        let gain = LARGEST_MOMENT / (4000.0 * libm::pow(largest, 5.0));
+        let standstills = vec![Standstill::new(DVec3::ZERO, DQuat::IDENTITY, 0.0); bodies.len()];
         Self {
             world,
             bodies,
             ids,
             index: HashMap::new(),
-            bonds: Bonds::default(),
+            standstills,
+            gain,
+            bonds: Bonds::new(gain),
             origin,
             events: Vec::new(),
         }
     }
 
     /// Puts a body where it is; `awake` says whether it moves at once or sleeps until something touches or pushes it.
-    pub fn join(&mut self, index: usize, state: &RigidBody, awake: bool) {
-        let foundation = Foundation::get().expect(SOUND);
+    ///
+    /// Returns whether it is there. A body beyond [`REACH`], or so large that parts of it would be, does not meet others.
+    pub fn join(&mut self, index: usize, state: &RigidBody, awake: bool) -> bool {
+        let foundation = foundation();
         let body = &self.bodies[index];
+        if !self.can_take(body, state) {
+            return false;
+        }
         let turns = state.inverse_moments != DVec3::ZERO;
         let kind = if body.anchored { BodyType::Static } else { BodyType::Dynamic };
         let at = single(state.position - self.origin);
@@ -162,32 +214,47 @@ impl ContactWorld {
             .motion_locks(locks);
         if !body.anchored {
             def = def
-                .linear_velocity(single(state.velocity))
-                .angular_velocity(single(state.angular_velocity()))
+                .linear_velocity(single(state.velocity.clamp_length_max(f64::from(FASTEST))))
+                .angular_velocity(single(turn(state)))
                 .awake(awake);
         }
         let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
         let surface = surface(foundation, body.friction, body.passes);
-        match &body.shape {
-            CollisionShape::Box(half) => {
-                let half = single(*half);
-                let hull = BoxHull::new(half.x, half.y, half.z).expect(SOUND);
-                self.world.create_hull_shape(id, &surface, &hull).expect(SOUND);
-            }
-            CollisionShape::Hulls(hulls) => {
-                for placed in hulls.iter().filter_map(|points| hull::hull_of(points)) {
-                    let (place, scale) = (placed.place, placed.scale);
-                    self.world
-                        .create_transformed_hull_shape(id, &surface, &placed.hull, place, scale)
-                        .expect(SOUND);
-                }
+        let mut hulls = 0;
+        let (low, high) = body.shape.bounds();
+        let thin = 0.5 * (high - low).min_element() < hull::THINNEST;
+        if let (CollisionShape::Hulls(all), false) = (&body.shape, thin) {
+            for placed in all.iter().filter_map(|points| hull::hull_of(points)) {
+                let (place, scale) = (placed.place, placed.scale);
+                self.world
+                    .create_transformed_hull_shape(id, &surface, &placed.hull, place, scale)
+                    .expect(SOUND);
+                hulls += 1;
             }
         }
+        if hulls == 0 {
+            // A box, or what is so thin that it has no hull.
+            let half = single((0.5 * (high - low)).max(DVec3::splat(hull::THINNEST)));
+            let slab = BoxHull::offset(half.x, half.y, half.z, single(0.5 * (low + high))).expect(SOUND);
+            self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
+        }
         if !body.anchored {
-            self.world.set_body_mass_data(id, mass(state)).expect(SOUND);
+            self.world.set_body_mass_data(id, mass(state, self.gain)).expect(SOUND);
         }
         self.ids[index] = Some(id);
         self.index.insert(id, index);
+        self.standstills[index] = Standstill::new(state.position, state.world_from_principal, state.reach);
+        true
+    }
+
+    /// Whether Box3D can hold a body where it is: it ends the process over what is not finite, and over bounds beyond
+    /// 5 km.
+    fn can_take(&self, body: &ContactBody, state: &RigidBody) -> bool {
+        let near = state.position.distance(self.origin) <= REACH;
+        let fits = body.shape.reach() <= LARGEST;
+        let moves = state.velocity.is_finite() && state.angular_velocity().is_finite();
+        let heavy = state.inverse_mass.is_finite() && state.inverse_mass > 0.0;
+        near && fits && state.world_from_principal.is_normalized() && (body.anchored || (moves && heavy))
     }
 
     /// Takes a body out.
@@ -229,15 +296,19 @@ impl ContactWorld {
         self.world.awake_body_count().expect(SOUND) as usize
     }
 
-    /// Gives a body the velocities of its state, and wakes it.
+    /// Gives a body the velocities of its state, and wakes it; one whose velocities are not numbers keeps its own.
     pub fn drive(&mut self, index: usize, state: &RigidBody) {
         let Some(id) = self.ids[index] else { return };
-        self.world.set_body_linear_velocity(id, single(state.velocity)).expect(SOUND);
-        self.world.set_body_angular_velocity(id, single(state.angular_velocity())).expect(SOUND);
+        if !state.velocity.is_finite() || !state.angular_velocity().is_finite() {
+            return;
+        }
+        let speed = f64::from(FASTEST);
+        self.world.set_body_linear_velocity(id, single(state.velocity.clamp_length_max(speed))).expect(SOUND);
+        self.world.set_body_angular_velocity(id, single(turn(state))).expect(SOUND);
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
-    /// whether it fell asleep, its position [m], rotation, velocity [m/s] and angular velocity [rad/s].
+    /// whether it rests, its position [m], rotation, velocity [m/s] and angular velocity [rad/s].
     pub fn step(&mut self, dt: f64, mut update: impl FnMut(Moved, DVec3, DQuat, DVec3, DVec3)) {
         let substeps = libm::ceil(dt / SUBSTEP - 1e-9).max(1.0) as i32;
         self.world.step(dt as f32, substeps).expect(SOUND);
@@ -248,15 +319,23 @@ impl ContactWorld {
             let at = event.transform;
             let position = DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into()) + self.origin;
             let rotation = DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
+            let rotation = rotation.normalize();
+            let standstill = &mut self.standstills[index];
+            let before = standstill.holds();
+            standstill.watch(position, rotation, dt);
+            let still = standstill.holds();
+            if still != before {
+                let threshold = if still { TREMOR } else { SLEEP_SPEED };
+                self.world.set_body_sleep_threshold(event.body_id, threshold).expect(SOUND);
+            }
             let velocity = double(self.world.body_linear_velocity(event.body_id).expect(SOUND));
-            let spin = double(self.world.body_angular_velocity(event.body_id).expect(SOUND));
-            update(
-                Moved { index, asleep: event.fell_asleep },
-                position,
-                rotation.normalize(),
-                velocity,
-                spin,
-            );
+            let mut spin = double(self.world.body_angular_velocity(event.body_id).expect(SOUND));
+            if spin.length_squared() > FASTEST_TURN * FASTEST_TURN {
+                spin = spin.clamp_length_max(FASTEST_TURN);
+                self.world.set_body_angular_velocity(event.body_id, single(spin)).expect(SOUND);
+            }
+            let moved = Moved { index, asleep: event.fell_asleep, still };
+            update(moved, position, rotation, velocity, spin);
         }
     }
 }
@@ -266,15 +345,25 @@ fn surface(foundation: &Foundation, friction: f64, passes: Passes) -> ShapeDef {
     surface.density(1.0).update_body_mass(false).filter(passes.filter()).build().expect(SOUND)
 }
 
-fn mass(state: &RigidBody) -> MassData {
+/// Mass and moments in Box3D's units.
+fn mass(state: &RigidBody, gain: f64) -> MassData {
     let mass = 1.0 / state.inverse_mass;
     // A body that may not turn has no moments; its rotation is locked.
     let fallback = 0.4 * mass * state.reach * state.reach;
-    let moment = |inverse: f64| if inverse > 0.0 { (1.0 / inverse) as f32 } else { fallback as f32 };
-    let [x, y, z] = state.inverse_moments.to_array().map(moment);
+    let (least, most) = MOMENTS;
+    let moment = |inverse: f64| gain * if inverse > 0.0 { 1.0 / inverse } else { fallback };
+    let moments = DVec3::from_array(state.inverse_moments.to_array().map(moment));
+    // A needle that turns about itself must not make the others' turn overflow.
+    let slender = (SLENDER * moments.max_element()).clamp(least, most);
+    let [x, y, z] = moments.to_array().map(|moment| moment.clamp(slender, most) as f32);
     let inertia =
         Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
-    MassData { mass: mass as f32, center: Vec3::ZERO, inertia }
+    MassData { mass: (gain * mass).clamp(MASSES.0, MASSES.1) as f32, center: Vec3::ZERO, inertia }
+}
+
+/// How fast a body turns [rad/s].
+fn turn(state: &RigidBody) -> DVec3 {
+    state.angular_velocity().clamp_length_max(FASTEST_TURN)
 }
 
 fn single(v: DVec3) -> Vec3 {

@@ -85,9 +85,10 @@ fn joint(a: &Brick, b: &Brick, world_from_wall: DQuat, mortar: Mortar) -> Option
 }
 
 /// All bonds that hold.
-#[derive(Default)]
 pub struct Bonds {
     held: Vec<Held>,
+    /// Box3D's forces are this many times ours.
+    gain: f64,
 }
 
 struct Held {
@@ -101,6 +102,11 @@ struct Held {
 }
 
 impl Bonds {
+    /// None yet, in a world whose masses and forces are `gain` times ours.
+    pub fn new(gain: f64) -> Self {
+        Self { held: Vec::new(), gain }
+    }
+
     pub fn len(&self) -> usize {
         self.held.len()
     }
@@ -148,8 +154,9 @@ impl Bonds {
             return;
         }
         self.held.retain(|held| {
-            let force = double(world.joint_constraint_force(held.joint).expect(SOUND)) * held.sign;
-            let torque = double(world.joint_constraint_torque(held.joint).expect(SOUND)) * held.sign;
+            let ours = held.sign / self.gain;
+            let force = double(world.joint_constraint_force(held.joint).expect(SOUND)) * ours;
+            let torque = double(world.joint_constraint_torque(held.joint).expect(SOUND)) * ours;
             let (_, world_from_first) = place(world, held.first);
             let into_joint = (world_from_first * held.first_from_joint).conjugate();
             let holds = held.bond.bears(into_joint * force, into_joint * torque);

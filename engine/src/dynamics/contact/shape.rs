@@ -36,6 +36,23 @@ pub enum CollisionShape {
 }
 
 impl CollisionShape {
+    /// The corner with the lowest and the one with the highest coordinates [m].
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        match self {
+            Self::Box(half) => (-*half, *half),
+            Self::Hulls(hulls) => bounds(hulls.iter().flatten()),
+        }
+    }
+
+    /// Distance of its farthest corner from the centre of mass [m]; infinite or not a number where a corner is.
+    pub fn reach(&self) -> f64 {
+        let farthest = |so_far: f64, p: &DVec3| if p.length() <= so_far { so_far } else { p.length() };
+        match self {
+            Self::Box(half) => half.length(),
+            Self::Hulls(hulls) => hulls.iter().flatten().fold(0.0, farthest),
+        }
+    }
+
     /// A box with edges `size` [m] in the body's own frame.
     pub fn of_box(size: DVec3, object_from_principal: DQuat) -> Self {
         Self::Box((object_from_principal.conjugate() * size).abs() * 0.5)
@@ -60,6 +77,12 @@ impl CollisionShape {
         hulls.iter_mut().flatten().for_each(|p| *p = into_principal * (*p - centre));
         Self::Hulls(hulls)
     }
+}
+
+/// The corners of the smallest box about points; about the origin where there are none.
+pub fn bounds<'a>(points: impl IntoIterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+    let both = points.into_iter().map(|&p| (p, p));
+    both.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_default()
 }
 
 /// The outlines of a flat piece's parts.

@@ -1,0 +1,393 @@
+//! What holds for whatever is thrown: nothing is lost, hardly anything ends in the ground or in another body, and energy
+//! hardly ever rises.
+//!
+//! Each scene is drawn from a number: boxes, shards of broken panes and meshes, piled up or thrown at up to 1 000 m/s,
+//! on the ground or on slopes. `BRISANCE_CASES=1000 cargo test --release --test invariants_contacts` runs more.
+
+mod rubble;
+
+use brisance_engine::dynamics::RigidBody;
+use brisance_engine::dynamics::contact::{
+    CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes, REACH,
+};
+use brisance_engine::dynamics::ground::Ground;
+use brisance_engine::fracture::{Fineness, Recipe};
+use brisance_engine::geometry::{Polygon, TriangleMesh};
+use brisance_engine::loading::Resistance;
+use brisance_engine::random;
+use glam::{DQuat, DVec2, DVec3};
+use rayon::prelude::*;
+use rubble::{Piece, Rubble, Throw};
+
+fn cases() -> u64 {
+    std::env::var("BRISANCE_CASES").ok().map_or(150, |count| count.parse().expect("a number of cases"))
+}
+
+/// Numbers drawn one after the other.
+struct Draws {
+    seed: u64,
+    next: u64,
+}
+
+impl Draws {
+    fn unit(&mut self) -> f64 {
+        self.next += 1;
+        random::unit(self.seed, 77, self.next)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Evenly on a logarithmic scale.
+    fn scale(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.unit())
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        let (y, angle) = (self.between(-1.0, 1.0), self.between(0.0, std::f64::consts::TAU));
+        let radius = (1.0 - y * y).sqrt();
+        DVec3::new(radius * angle.cos(), y, radius * angle.sin())
+    }
+
+    fn rotation(&mut self) -> DQuat {
+        let axis = self.direction();
+        DQuat::from_axis_angle(axis, self.between(0.0, std::f64::consts::TAU))
+    }
+}
+
+/// The pieces of a square pane with this edge [m].
+fn shards(draws: &mut Draws) -> Vec<Piece> {
+    let (edge, thickness) = (draws.between(0.2, 1.0), draws.between(0.003, 0.012));
+    let square = Polygon::new(&[DVec2::ZERO, DVec2::X * edge, DVec2::ONE * edge, DVec2::Y * edge]);
+    let count = draws.scale(8.0, 120.0) as usize;
+    let seed = (draws.unit() * 1e6) as u64;
+    let pattern = Recipe { fineness: Fineness::Pieces(count), seed, ..Recipe::default() }
+        .grow(&square)
+        .unwrap()
+        .pattern;
+    let mut outline = Polygon::default();
+    (0..pattern.len())
+        .map(|index| {
+            pattern.fragment(index).outline(&mut outline);
+            let middle = outline.moments().centroid;
+            let mut own = Polygon::default();
+            for ring in outline.rings() {
+                own.push_ring(ring.iter().map(|&p| p - middle));
+            }
+            Piece::of_flat(own, thickness, 2500.0)
+        })
+        .collect()
+}
+
+/// A prism over a ring in the plane z = 0 as a mesh, fanned from its first corner.
+fn prism(ring: &[DVec2], height: f64) -> TriangleMesh {
+    let n = ring.len() as u32;
+    let vertices = [0.0, height].iter().flat_map(|&z| ring.iter().map(move |p| p.extend(z))).collect();
+    let mut triangles: Vec<[u32; 3]> = (2..n).flat_map(|k| [[0, k, k - 1], [n, n + k - 1, n + k]]).collect();
+    triangles.extend((0..n).flat_map(|k| [[k, (k + 1) % n, n + k], [(k + 1) % n, n + (k + 1) % n, n + k]]));
+    TriangleMesh::new(vertices, triangles).unwrap()
+}
+
+/// A corner piece, a wedge or a stone, some decimetres large.
+fn mesh(draws: &mut Draws) -> Piece {
+    let size = draws.between(0.1, 0.5);
+    let mesh = match (draws.unit() * 3.0) as usize {
+        // Seen from its first corner, which is the reflex one, an L is a star, and a fan fills it.
+        0 => {
+            let ring = [(0.3, 0.3), (0.3, 1.0), (0.0, 1.0), (0.0, 0.0), (1.0, 0.0), (1.0, 0.3)];
+            prism(&ring.map(|(x, y)| DVec2::new(x, y) * size), 0.4 * size)
+        }
+        1 => prism(&[DVec2::ZERO, DVec2::X * size, DVec2::new(0.9, 0.4) * size], 0.7 * size),
+        _ => {
+            let corners = 5 + (draws.unit() * 5.0) as usize;
+            let ring: Vec<DVec2> = (0..corners)
+                .map(|k| DVec2::from_angle(std::f64::consts::TAU * k as f64 / corners as f64) * size * 0.5)
+                .collect();
+            prism(&ring, draws.between(0.2, 1.0) * size)
+        }
+    };
+    Piece::of_mesh(mesh, 2200.0)
+}
+
+/// Bodies one above the other in a few columns, so that none begins in another, each thrown its own way.
+fn scene(seed: u64) -> Rubble {
+    let mut draws = Draws { seed, next: 0 };
+    let mut pieces = Vec::new();
+    for _ in 0..2 + (draws.unit() * 8.0) as usize {
+        let size = DVec3::new(draws.scale(0.03, 0.6), draws.scale(0.03, 0.6), draws.scale(0.03, 0.6));
+        pieces.push(Piece::of_box(size, 2000.0));
+    }
+    pieces.extend((0..(draws.unit() * 4.0) as usize).map(|_| mesh(&mut draws)));
+    if draws.unit() < 0.7 {
+        pieces.extend(shards(&mut draws));
+    }
+    let fast = draws.scale(0.1, 1000.0);
+    let aim = draws.direction();
+    let mut throws = Vec::new();
+    // Slopes: tilted boxes that do not move, their upper edges well below everything else.
+    if draws.unit() < 0.5 {
+        for side in [-1.0, 1.0] {
+            let slope = Throw {
+                position: DVec3::new(side * 2.0, 0.2, 0.0),
+                world_from_object: DQuat::from_rotation_z(side * draws.between(0.1, 0.7)),
+                velocity: DVec3::ZERO,
+                spin: DVec3::ZERO,
+                anchored: true,
+            };
+            throws.push((Piece::of_box(DVec3::new(3.0, 0.2, 4.0), 2000.0), slope));
+        }
+    }
+    let columns = 1 + (draws.unit() * 5.0) as usize;
+    let mut heights = [2.5_f64; 5];
+    for (index, piece) in pieces.into_iter().enumerate() {
+        let (column, reach) = (index % columns, piece.reach());
+        let height = &mut heights[column];
+        let position = DVec3::new(1.6 * (column as f64 - 0.5 * columns as f64), *height + reach, 0.0);
+        *height += 2.0 * reach + 0.01;
+        let mut velocity = (aim + 0.3 * draws.direction()) * fast;
+        velocity.y = -velocity.y.abs();
+        let spin = draws.direction() * draws.scale(0.1, 100.0);
+        let world_from_object = draws.rotation();
+        throws.push((piece, Throw { position, world_from_object, velocity, spin, anchored: false }));
+    }
+    Rubble::new(throws, draws.between(0.2, 0.9))
+}
+
+/// What became of a scene.
+#[derive(Debug, Clone, Copy, Default)]
+struct Outcome {
+    pieces: usize,
+    /// Bodies that rest at the end.
+    resting: usize,
+    /// How deep one that rests is in the ground or in another at most [m], and how many are deeper than 2 mm.
+    deepest: f64,
+    deep: usize,
+    /// By how much energy rose at most over what it had come down to, as a part of what there was first.
+    rise: f64,
+    lost: usize,
+}
+
+fn outcome(seed: u64) -> Outcome {
+    let mut rubble = scene(seed);
+    let start = rubble.energy();
+    let (mut least, mut rise, mut time) = (start, 0.0_f64, 0.0);
+    while time < 12.0 && rubble.world.awake() > 0 {
+        let there = rubble.gone.iter().filter(|gone| **gone).count();
+        time += rubble.step();
+        let now = rubble.energy();
+        if rubble.gone.iter().filter(|gone| **gone).count() != there {
+            least = now;
+        }
+        rise = rise.max((now - least) / start);
+        least = least.min(now);
+    }
+    let rests = |&i: &usize| {
+        let state = &rubble.states[i];
+        rubble.asleep[i] || state.velocity.length() + state.angular_velocity().length() * state.reach < 0.05
+    };
+    let resting: Vec<usize> = rubble.free().filter(rests).collect();
+    let depth = |&i: &usize| {
+        let others = (0..rubble.states.len()).filter(|&j| j != i && !rubble.gone[j]);
+        others.map(|j| rubble.inside(i, j)).fold(rubble.sunk(i), f64::max)
+    };
+    let depths: Vec<f64> = resting.iter().map(depth).collect();
+    let lost = |&i: &usize| {
+        let state = &rubble.states[i];
+        !state.position.is_finite()
+            || !state.velocity.is_finite()
+            || state.position.y < -0.01 - state.velocity.length() * 5e-3
+    };
+    Outcome {
+        pieces: rubble.states.len(),
+        resting: resting.len(),
+        deepest: depths.iter().copied().fold(0.0, f64::max),
+        deep: depths.iter().filter(|&&d| d > 2e-3).count(),
+        rise,
+        lost: rubble.free().filter(lost).count()
+            + rubble.states.iter().filter(|s| !s.position.is_finite()).count(),
+    }
+}
+
+#[test]
+fn whatever_is_thrown_lies_on_the_ground_in_the_end() {
+    let outcomes: Vec<(u64, Outcome)> =
+        (0..cases()).into_par_iter().map(|seed| (seed, outcome(seed))).collect();
+    let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, o)| of(o)).sum::<usize>();
+    println!(
+        "{} scenes: {} bodies, {} at rest, {} deeper than 2 mm, {} lost",
+        outcomes.len(),
+        sum(|o| o.pieces),
+        sum(|o| o.resting),
+        sum(|o| o.deep),
+        sum(|o| o.lost)
+    );
+    for (what, of) in [("depth", (|o| o.deepest) as fn(&Outcome) -> f64), ("rise", |o| o.rise)] {
+        let mut order: Vec<_> = outcomes.iter().map(|(seed, o)| (of(o), *seed)).collect();
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        println!("largest {what} (with its scene): {:?}", &order[..order.len().min(8)]);
+    }
+    assert_eq!(sum(|o| o.lost), 0);
+    // One in fifty ends deeper: light ones under heavy ones, and wedges.
+    assert!(100 * sum(|o| o.deep) <= 4 * sum(|o| o.resting));
+    let rises = outcomes.iter().filter(|(_, o)| o.rise > 1e-2).count() as f64;
+    assert!(rises <= (0.02 * outcomes.len() as f64).max(1.0), "energy rises in {rises} scenes");
+    for (seed, outcome) in &outcomes {
+        assert!(outcome.deepest < 0.1, "scene {seed}: {outcome:?}");
+        assert!(outcome.rise < 0.25, "scene {seed}: {outcome:?}");
+    }
+}
+
+/// Points that a hull builder does not like, within a cube of this size [m] about the origin.
+fn nasty(draws: &mut Draws, size: f64) -> Vec<DVec3> {
+    let mut count = 4 + (draws.unit() * 40.0) as usize;
+    let thin = draws.scale(1e-9, 1e-1);
+    let kind = (draws.unit() * 9.0) as usize;
+    if kind == 7 {
+        count = 3000;
+    }
+    let mut points: Vec<DVec3> = (0..count)
+        .map(|k| {
+            let p = DVec3::new(draws.between(-1.0, 1.0), draws.between(-1.0, 1.0), draws.between(-1.0, 1.0));
+            match kind {
+                // A needle, a plate, both tilted by what follows; a line; one point; nearly one plane.
+                0 => p * DVec3::new(1.0, thin, thin),
+                1 => p * DVec3::new(1.0, 1.0, thin),
+                2 => DVec3::X * p.x,
+                3 => DVec3::ONE,
+                4 => DVec3::new(p.x, p.y, 0.3 * p.x - 0.2 * p.y + thin * p.z),
+                // A prism over a ring with nearly straight corners, and points on a sphere.
+                5 => {
+                    let angle = std::f64::consts::TAU * k as f64 / count as f64;
+                    DVec3::new(angle.cos(), angle.sin() * thin.sqrt(), if k % 2 == 0 { 0.2 } else { -0.2 })
+                }
+                6 | 7 => draws.direction(),
+                // On a lattice: many points in each of many planes.
+                _ => (p * 3.0).round() / 3.0,
+            }
+        })
+        .collect();
+    if draws.unit() < 0.5 {
+        let rotation = draws.rotation();
+        points.iter_mut().for_each(|p| *p = rotation * *p);
+    }
+    if draws.unit() < 0.3 {
+        points.extend_from_within(..);
+    }
+    points.iter_mut().for_each(|p| *p *= 0.5 * size);
+    if draws.unit() < 0.02 {
+        points[0].x = if draws.unit() < 0.5 { f64::NAN } else { f64::INFINITY };
+    }
+    points
+}
+
+/// A number, sometimes one that no body should have.
+fn odd(draws: &mut Draws, usual: f64) -> f64 {
+    match (draws.unit() * 40.0) as usize {
+        0 => f64::NAN,
+        1 => f64::INFINITY,
+        2 => 1e30,
+        3 => 0.0,
+        _ => usual,
+    }
+}
+
+/// Whatever shapes of 1 mm to 100 m and more, masses, places and velocities there are, the process goes on; a body is refused or stays in the
+/// world with a place and a velocity that are numbers. Box3D itself ends the process over many of these.
+#[test]
+fn no_shape_and_no_number_ends_the_process() {
+    let refused: usize = (0..7 * cases())
+        .into_par_iter()
+        .map(|seed| {
+            let mut draws = Draws { seed: 1_000_000 + seed, next: 0 };
+            let count = 1 + (draws.unit() * 8.0) as usize;
+            let (mut bodies, mut states) = (Vec::new(), Vec::new());
+            for _ in 0..count {
+                let size = if draws.unit() < 0.1 { draws.scale(2e3, 1e4) } else { draws.scale(1e-3, 1e2) };
+                let shape = if draws.unit() < 0.2 {
+                    let edges = DVec3::new(draws.scale(1e-9, 1.0), draws.scale(1e-9, 1.0), draws.unit());
+                    CollisionShape::of_box(edges * size, DQuat::IDENTITY)
+                } else {
+                    let hulls = 1 + (draws.unit() * 3.0) as usize;
+                    CollisionShape::Hulls((0..hulls).map(|_| nasty(&mut draws, size)).collect())
+                };
+                let usual = draws.scale(1e-1, 1.0) * 2000.0 * size.powi(3);
+                let mass = odd(&mut draws, usual);
+                let moments = DVec3::new(draws.scale(1e-2, 1.0), 1.0, 1.0) * 0.1 * mass * size * size;
+                let position = draws.direction() * draws.scale(1e-3, 1e5);
+                let velocity = draws.direction() * odd(&mut draws, 10.0);
+                let momentum = draws.direction() * odd(&mut draws, 10.0) * moments;
+                states.push(RigidBody {
+                    position: DVec3::new(odd(&mut draws, position.x), position.y.abs(), position.z),
+                    world_from_principal: draws.rotation(),
+                    velocity,
+                    angular_momentum: momentum,
+                    inverse_mass: 1.0 / mass,
+                    inverse_moments: moments.recip(),
+                    resistance: Resistance::new(DVec3::ONE, 1.0, None, mass),
+                    reach: size,
+                });
+                let anchored = draws.unit() < 0.2;
+                bodies.push(ContactBody { shape, friction: draws.unit(), anchored, passes: Passes::Nothing });
+            }
+            let ground = Ground { height: odd(&mut draws, 0.0), friction: 0.5 };
+            let mut world = ContactWorld::new(bodies, Some(ground), DVec3::ZERO);
+            let joined = (0..count).filter(|&i| world.join(i, &states[i], true)).count();
+            for _ in 0..24 {
+                let mut far = Vec::new();
+                world.step(LONGEST_STEP, |moved, position, rotation, velocity, spin| {
+                    if position.length() > REACH {
+                        far.push(moved.index);
+                    }
+                    let sound = position.is_finite() && rotation.is_finite() && velocity.is_finite();
+                    assert!(sound && spin.is_finite(), "seed {seed}");
+                });
+                far.into_iter().for_each(|index| world.leave(index));
+            }
+            let state = states[draws.next as usize % count];
+            world.drive(0, &RigidBody { velocity: DVec3::splat(odd(&mut draws, 1e9)), ..state });
+            world.step(LONGEST_STEP, |_, _, _, _, _| {});
+            count - joined
+        })
+        .sum();
+    println!("{refused} bodies were refused");
+    assert!(refused > 0);
+}
+
+/// Bodies of every usual size and of the shapes above fall onto the ground and stay on it.
+#[test]
+fn whatever_its_shape_a_body_stays_on_the_ground() {
+    (0..3 * cases()).into_par_iter().for_each(|seed| {
+        let mut draws = Draws { seed: 2_000_000 + seed, next: 0 };
+        let size = draws.scale(1e-3, 10.0);
+        let mut points = nasty(&mut draws, size);
+        points.iter_mut().filter(|p| !p.is_finite()).for_each(|p| *p = DVec3::ZERO);
+        let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        points.iter_mut().for_each(|p| *p -= 0.5 * (low + high));
+        let reach = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let mass = 1000.0 * size.powi(3);
+        let state = RigidBody {
+            position: DVec3::Y * (reach + 0.05 * size),
+            world_from_principal: DQuat::IDENTITY,
+            velocity: DVec3::NEG_Y,
+            angular_momentum: DVec3::ZERO,
+            inverse_mass: 1.0 / mass,
+            inverse_moments: DVec3::splat(1.0 / (0.1 * mass * size * size)),
+            resistance: Resistance::new(DVec3::ONE, 1.0, None, mass),
+            reach,
+        };
+        let shape = CollisionShape::Hulls(vec![points]);
+        let body = ContactBody { shape, friction: 0.5, anchored: false, passes: Passes::Nothing };
+        let mut world =
+            ContactWorld::new(vec![body], Some(Ground { height: 0.0, friction: 0.5 }), DVec3::ZERO);
+        assert!(world.join(0, &state, true), "seed {seed}");
+        let mut height = f64::NAN;
+        for _ in 0..480 {
+            world.step(LONGEST_STEP, |_, position, _, _, _| height = position.y);
+        }
+        // Points that nearly lie in a plane are snapped to a sixteenth of the body's extent.
+        let give = 2e-3 + 0.04 * reach;
+        assert!(height > -give && height < reach + give, "seed {seed}: at {height} m, it reaches {reach} m");
+    });
+}
