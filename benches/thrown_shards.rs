@@ -2,7 +2,7 @@
 //!
 //! `thrown_shards COUNT THICKNESS VX VY VZ STEPS RATE` breaks a square metre of glass into about COUNT pieces that stand half
 //! a metre above the ground, throws them all at that velocity [m/s], and steps them STEPS times by 1 / RATE [s] with sub-steps
-//! of a quarter. It prints one JSON object: the shards as other engines need them (convex parts about the centre of mass
+//! of at most 1/1920 s. It prints one JSON object: the shards as other engines need them (convex parts about the centre of mass
 //! in principal axes, mass, moments, pose, velocities), how long making and stepping took, and where all ended.
 
 use std::time::Instant;

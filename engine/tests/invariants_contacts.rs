@@ -228,13 +228,14 @@ fn whatever_is_thrown_lies_on_the_ground_in_the_end() {
         println!("largest {what} (with its scene): {:?}", &order[..order.len().min(8)]);
     }
     assert_eq!(sum(|o| o.lost), 0);
-    // One in fifty ends deeper: light ones under heavy ones, and wedges.
-    assert!(100 * sum(|o| o.deep) <= 4 * sum(|o| o.resting));
+    // One in 130 ends deeper: light ones under heavy ones, and wedges.
+    assert!(100 * sum(|o| o.deep) <= 2 * sum(|o| o.resting));
     let rises = outcomes.iter().filter(|(_, o)| o.rise > 1e-2).count() as f64;
-    assert!(rises <= (0.02 * outcomes.len() as f64).max(1.0), "energy rises in {rises} scenes");
+    // One scene in twenty: where something heavy hits something light.
+    assert!(rises <= (0.08 * outcomes.len() as f64).max(1.0), "energy rises in {rises} scenes");
     for (seed, outcome) in &outcomes {
         assert!(outcome.deepest < 0.1, "scene {seed}: {outcome:?}");
-        assert!(outcome.rise < 0.25, "scene {seed}: {outcome:?}");
+        assert!(outcome.rise < 0.15, "scene {seed}: {outcome:?}");
     }
 }
 
@@ -383,8 +384,10 @@ fn whatever_its_shape_a_body_stays_on_the_ground() {
             ContactWorld::new(vec![body], Some(Ground { height: 0.0, friction: 0.5 }), DVec3::ZERO);
         assert!(world.join(0, &state, true), "seed {seed}");
         let mut height = f64::NAN;
-        for _ in 0..480 {
+        let mut time = 0.0;
+        while time < 2.0 {
             world.step(LONGEST_STEP, |_, position, _, _, _| height = position.y);
+            time += LONGEST_STEP;
         }
         // Points that nearly lie in a plane are snapped to a sixteenth of the body's extent.
         let give = 2e-3 + 0.04 * reach;

@@ -4,17 +4,18 @@
 mod glass;
 
 use brisance_engine::dynamics::GRAVITY;
-use brisance_engine::dynamics::contact::{CollisionShape, LONGEST_STEP, REACH};
+use brisance_engine::dynamics::contact::{CollisionShape, LONGEST_STEP, REACH, step_at};
 use brisance_engine::geometry::{Polygon, Triangulator, convex_hull, convex_parts};
 use glam::{DQuat, DVec2, DVec3};
 use glass::{pane, spin};
 use proptest::prelude::*;
 
 /// A thousand shards thrown flat and down, up to three times as fast as glass breaks at: none ends below the floor, and
-/// none in it by more than four millimetres, and all but one in 100 by less than two. (The lightest shards under a heap give way
+/// none in it by more than four millimetres, and all but one in 200 by less than two. (The lightest shards under a heap give way
 /// most: the stiffness of a contact goes with the mass of the lighter body.)
 #[test]
 fn no_shard_goes_through_the_floor_at_any_speed() {
+    let (mut all, mut all_deep) = (0, 0);
     for (count, thickness, velocity) in [
         (1000, 0.004, DVec3::new(0.0, 0.0, 12.0)),
         (1000, 0.004, DVec3::new(0.0, -100.0, 30.0)),
@@ -27,9 +28,9 @@ fn no_shard_goes_through_the_floor_at_any_speed() {
         let (start, mut highest) = (glass.energy(), 0.0_f64);
         let mut time = 0.0;
         while time < 6.0 && glass.world.awake() > 0 {
-            // As a run chooses its steps: nothing moves farther than a quarter of a metre in one.
+            // As a run chooses its steps.
             let fastest = glass.states.iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
-            let dt = (0.25 / fastest).clamp(1e-3, LONGEST_STEP);
+            let dt = step_at(fastest);
             glass.step(dt);
             time += dt;
             highest = highest.max(glass.energy());
@@ -51,12 +52,11 @@ fn no_shard_goes_through_the_floor_at_any_speed() {
         );
         assert!(glass.states.iter().all(|s| s.position.is_finite()));
         assert!(below.is_empty(), "at {speed} m/s these are below the floor: {below:?}");
-        assert!(
-            deepest < 4e-3 && 100 * deep <= depths.len(),
-            "at {speed} m/s the deepest is {deepest} m in the floor"
-        );
+        assert!(deepest < 4e-3, "at {speed} m/s the deepest is {deepest} m in the floor");
+        (all, all_deep) = (all + depths.len(), all_deep + deep);
         assert!(highest < 1.01 * start, "at {speed} m/s energy rises to {} of itself", highest / start);
     }
+    assert!(200 * all_deep <= all, "{all_deep} of {all} lie deeper than 2 mm");
 }
 
 /// A pane that is in pieces and only let go falls as one: its pieces touch everywhere and gain nothing from that. What
@@ -66,7 +66,7 @@ fn neighbours_that_touch_are_not_pushed_apart() {
     let mut glass = pane(1000, 0.006, |_| (DVec3::ZERO, DVec3::ZERO));
     let mass: f64 = glass.states.iter().map(|s| 1.0 / s.inverse_mass).sum();
     let mut fallen = 0.0;
-    for _ in 0..60 {
+    while fallen < 0.25 {
         glass.step(LONGEST_STEP);
         fallen += LONGEST_STEP;
     }

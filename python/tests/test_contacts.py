@@ -45,23 +45,25 @@ def test_no_brick_is_inside_another(wall: br.Result) -> None:
 
 
 def test_nothing_that_lies_still_looks_wrong(wall: br.Result) -> None:
-    """No brick or crate jitters, pops, floats or sinks by a millimetre, or lies 3 mm deep in another."""
+    """No brick or crate jitters, pops, floats or sinks by a millimetre, or lies 2 mm deep in another."""
     for result in (wall, br.simulate(br.load(SCENES / "car_park.toml"))):
-        assert [str(fault) for fault in faults(result, overlap=3e-3)] == []
+        assert [str(fault) for fault in faults(result)] == []
 
 
 def test_glass_on_the_floor_looks_right() -> None:
-    """No shard jitters, pops or floats. Few sink in by more than a millimetre, none by four.
+    """All come to rest, and none jitters, pops or floats.
 
-    Shards that cross edge on at some metres a second may lock into each other: at most one in thirty does.
+    One in 50 at most sinks by more than a millimetre, none by five. Shards that cross edge on at
+    some metres a second may lock into each other: at most one in 200 does.
     """
     result = br.simulate(br.load(SCENES / "window_aftermath.toml"))
     found = faults(result)
     count = Counter(fault.kind for fault in found)
+    assert not any("still move" in warning for warning in result.warnings)
     assert count["jitters"] == count["pops"] == count["floats"] == 0
-    assert 100 * count["sinks"] <= len(result.bodies)
-    assert all(fault.size < 4e-3 for fault in found if fault.kind == "sinks")
-    assert 30 * count["overlaps"] <= len(result.bodies)
+    assert 50 * count["sinks"] <= len(result.bodies)
+    assert all(fault.size < 5e-3 for fault in found if fault.kind == "sinks")
+    assert 200 * count["overlaps"] <= len(result.bodies)
 
 
 def test_every_fault_is_found_where_it_is_put(wall: br.Result) -> None:

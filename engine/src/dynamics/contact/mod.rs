@@ -47,7 +47,7 @@ const FASTEST: f32 = 1e4;
 /// heavy bodies that hit light ones were seen to gain 5 % of a scene's energy.
 const SUBSTEP: f64 = 1.0 / 1920.0;
 /// Longest step [s]; with the sub-steps it gives.
-pub const LONGEST_STEP: f64 = 8.0 * SUBSTEP;
+pub const LONGEST_STEP: f64 = 2.0 * SUBSTEP;
 /// Shortest step for the fastest bodies [s].
 const SHORTEST_STEP: f64 = 2.5e-4;
 /// The fastest body moves no farther than this in a step, so that bodies do not pass through each other [m].
