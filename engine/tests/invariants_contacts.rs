@@ -4,6 +4,7 @@
 //! Each scene is drawn from a number: boxes, shards of broken panes and meshes, piled up or thrown at up to 1 000 m/s,
 //! on the ground or on slopes. `BRISANCE_CASES=1000 cargo test --release --test invariants_contacts` runs more.
 
+mod draws;
 mod rubble;
 
 use brisance_engine::dynamics::RigidBody;
@@ -14,46 +15,24 @@ use brisance_engine::dynamics::ground::Ground;
 use brisance_engine::fracture::{Fineness, Recipe};
 use brisance_engine::geometry::{Polygon, TriangleMesh};
 use brisance_engine::loading::Resistance;
-use brisance_engine::random;
+use draws::{Draws, cases};
 use glam::{DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 use rubble::{Piece, Rubble, Throw};
 
-fn cases() -> u64 {
-    std::env::var("BRISANCE_CASES").ok().map_or(150, |count| count.parse().expect("a number of cases"))
+/// The stream of all numbers here.
+const STREAM: u64 = 77;
+
+/// A unit vector.
+fn direction(draws: &mut Draws) -> DVec3 {
+    let (y, angle) = (draws.between(-1.0, 1.0), draws.between(0.0, std::f64::consts::TAU));
+    let radius = (1.0 - y * y).sqrt();
+    DVec3::new(radius * angle.cos(), y, radius * angle.sin())
 }
 
-/// Numbers drawn one after the other.
-struct Draws {
-    seed: u64,
-    next: u64,
-}
-
-impl Draws {
-    fn unit(&mut self) -> f64 {
-        self.next += 1;
-        random::unit(self.seed, 77, self.next)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Evenly on a logarithmic scale.
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.unit())
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        let (y, angle) = (self.between(-1.0, 1.0), self.between(0.0, std::f64::consts::TAU));
-        let radius = (1.0 - y * y).sqrt();
-        DVec3::new(radius * angle.cos(), y, radius * angle.sin())
-    }
-
-    fn rotation(&mut self) -> DQuat {
-        let axis = self.direction();
-        DQuat::from_axis_angle(axis, self.between(0.0, std::f64::consts::TAU))
-    }
+fn rotation(draws: &mut Draws) -> DQuat {
+    let axis = direction(draws);
+    DQuat::from_axis_angle(axis, draws.between(0.0, std::f64::consts::TAU))
 }
 
 /// The pieces of a square pane with this edge [m].
@@ -112,7 +91,7 @@ fn mesh(draws: &mut Draws) -> Piece {
 
 /// Bodies one above the other in a few columns, so that none begins in another, each thrown its own way.
 fn scene(seed: u64) -> Rubble {
-    let mut draws = Draws { seed, next: 0 };
+    let mut draws = Draws::new(seed, STREAM);
     let mut pieces = Vec::new();
     for _ in 0..2 + (draws.unit() * 8.0) as usize {
         let size = DVec3::new(draws.scale(0.03, 0.6), draws.scale(0.03, 0.6), draws.scale(0.03, 0.6));
@@ -123,7 +102,7 @@ fn scene(seed: u64) -> Rubble {
         pieces.extend(shards(&mut draws));
     }
     let fast = draws.scale(0.1, 1000.0);
-    let aim = draws.direction();
+    let aim = direction(&mut draws);
     let mut throws = Vec::new();
     // Slopes: tilted boxes that do not move, their upper edges well below everything else.
     if draws.unit() < 0.5 {
@@ -145,10 +124,10 @@ fn scene(seed: u64) -> Rubble {
         let height = &mut heights[column];
         let position = DVec3::new(1.6 * (column as f64 - 0.5 * columns as f64), *height + reach, 0.0);
         *height += 2.0 * reach + 0.01;
-        let mut velocity = (aim + 0.3 * draws.direction()) * fast;
+        let mut velocity = (aim + 0.3 * direction(&mut draws)) * fast;
         velocity.y = -velocity.y.abs();
-        let spin = draws.direction() * draws.scale(0.1, 100.0);
-        let world_from_object = draws.rotation();
+        let spin = direction(&mut draws) * draws.scale(0.1, 100.0);
+        let world_from_object = rotation(&mut draws);
         throws.push((piece, Throw { position, world_from_object, velocity, spin, anchored: false }));
     }
     Rubble::new(throws, draws.between(0.2, 0.9))
@@ -212,7 +191,7 @@ fn outcome(seed: u64) -> Outcome {
 #[test]
 fn whatever_is_thrown_lies_on_the_ground_in_the_end() {
     let outcomes: Vec<(u64, Outcome)> =
-        (0..cases()).into_par_iter().map(|seed| (seed, outcome(seed))).collect();
+        (0..cases(150)).into_par_iter().map(|seed| (seed, outcome(seed))).collect();
     let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, o)| of(o)).sum::<usize>();
     println!(
         "{} scenes: {} bodies, {} at rest, {} deeper than 2 mm, {} lost",
@@ -262,14 +241,14 @@ fn nasty(draws: &mut Draws, size: f64) -> Vec<DVec3> {
                     let angle = std::f64::consts::TAU * k as f64 / count as f64;
                     DVec3::new(angle.cos(), angle.sin() * thin.sqrt(), if k % 2 == 0 { 0.2 } else { -0.2 })
                 }
-                6 | 7 => draws.direction(),
+                6 | 7 => direction(draws),
                 // On a lattice: many points in each of many planes.
                 _ => (p * 3.0).round() / 3.0,
             }
         })
         .collect();
     if draws.unit() < 0.5 {
-        let rotation = draws.rotation();
+        let rotation = rotation(draws);
         points.iter_mut().for_each(|p| *p = rotation * *p);
     }
     if draws.unit() < 0.3 {
@@ -297,10 +276,10 @@ fn odd(draws: &mut Draws, usual: f64) -> f64 {
 /// world with a place and a velocity that are numbers. Box3D itself ends the process over many of these.
 #[test]
 fn no_shape_and_no_number_ends_the_process() {
-    let refused: usize = (0..7 * cases())
+    let refused: usize = (0..7 * cases(150))
         .into_par_iter()
         .map(|seed| {
-            let mut draws = Draws { seed: 1_000_000 + seed, next: 0 };
+            let mut draws = Draws::new(1_000_000 + seed, STREAM);
             let count = 1 + (draws.unit() * 8.0) as usize;
             let (mut bodies, mut states) = (Vec::new(), Vec::new());
             for _ in 0..count {
@@ -315,12 +294,12 @@ fn no_shape_and_no_number_ends_the_process() {
                 let usual = draws.scale(1e-1, 1.0) * 2000.0 * size.powi(3);
                 let mass = odd(&mut draws, usual);
                 let moments = DVec3::new(draws.scale(1e-2, 1.0), 1.0, 1.0) * 0.1 * mass * size * size;
-                let position = draws.direction() * draws.scale(1e-3, 1e5);
-                let velocity = draws.direction() * odd(&mut draws, 10.0);
-                let momentum = draws.direction() * odd(&mut draws, 10.0) * moments;
+                let position = direction(&mut draws) * draws.scale(1e-3, 1e5);
+                let velocity = direction(&mut draws) * odd(&mut draws, 10.0);
+                let momentum = direction(&mut draws) * odd(&mut draws, 10.0) * moments;
                 states.push(RigidBody {
                     position: DVec3::new(odd(&mut draws, position.x), position.y.abs(), position.z),
-                    world_from_principal: draws.rotation(),
+                    world_from_principal: rotation(&mut draws),
                     velocity,
                     angular_momentum: momentum,
                     inverse_mass: 1.0 / mass,
@@ -358,8 +337,8 @@ fn no_shape_and_no_number_ends_the_process() {
 /// Bodies of every usual size and of the shapes above fall onto the ground and stay on it.
 #[test]
 fn whatever_its_shape_a_body_stays_on_the_ground() {
-    (0..3 * cases()).into_par_iter().for_each(|seed| {
-        let mut draws = Draws { seed: 2_000_000 + seed, next: 0 };
+    (0..3 * cases(150)).into_par_iter().for_each(|seed| {
+        let mut draws = Draws::new(2_000_000 + seed, STREAM);
         let size = draws.scale(1e-3, 10.0);
         let mut points = nasty(&mut draws, size);
         points.iter_mut().filter(|p| !p.is_finite()).for_each(|p| *p = DVec3::ZERO);

@@ -4,6 +4,8 @@
 //! Each case is drawn from a number, over outlines from 1 mm to 100 m with reflex corners and holes, and over
 //! every parameter's range. `BRISANCE_CASES=10000 cargo test --release --test invariants_fracture` runs more.
 
+mod draws;
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -11,38 +13,12 @@ use brisance_engine::fracture::{
     Depth, Forking, Guide, Nucleus, Order, Pattern, Pieces, Rings, Settings, StressField, Wiggle, outline,
 };
 use brisance_engine::geometry::Polygon;
-use brisance_engine::random;
+use draws::{Draws, cases};
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
-fn cases() -> u64 {
-    std::env::var("BRISANCE_CASES").ok().map_or(300, |count| count.parse().expect("a number of cases"))
-}
-
-/// Numbers drawn one after the other.
-struct Draws {
-    seed: u64,
-    next: u64,
-}
-
-impl Draws {
-    fn unit(&mut self) -> f64 {
-        self.next += 1;
-        random::unit(self.seed, 99, self.next)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn chance(&mut self, probability: f64) -> bool {
-        self.unit() < probability
-    }
-
-    fn whole(&mut self, low: usize, high: usize) -> usize {
-        low + (self.unit() * (high - low + 1) as f64) as usize
-    }
-}
+/// The stream of all numbers here.
+const STREAM: u64 = 99;
 
 /// Scale from 1 mm to 100 m, evenly on a logarithmic scale.
 fn any_outline(draws: &mut Draws) -> Polygon {
@@ -259,8 +235,8 @@ fn check_rings(pattern: &Pattern, case: u64) {
 #[test]
 fn fragments_fill_the_pane_without_overlap_and_share_every_crack() {
     let mut pieces = 0;
-    for case in 0..cases() {
-        let mut draws = Draws { seed: case, next: 0 };
+    for case in 0..cases(300) {
+        let mut draws = Draws::new(case, STREAM);
         let pane = any_outline(&mut draws);
         let settings = any_settings(&mut draws, &pane);
         let pattern = Pattern::grow(&pane, &settings).unwrap_or_else(|e| panic!("case {case}: {e}"));
@@ -282,7 +258,7 @@ fn fragments_fill_the_pane_without_overlap_and_share_every_crack() {
         let solids = Pieces::of(&pattern, 1e-3, 2500.0).unwrap_or_else(|e| panic!("case {case}: {e}"));
         assert_eq!(solids.len(), pattern.len());
     }
-    assert!(pieces as u64 > 20 * cases(), "the cases are too easy: {pieces} pieces");
+    assert!(pieces as u64 > 20 * cases(300), "the cases are too easy: {pieces} pieces");
 }
 
 /// Cracks that turn often and far curl up and meet themselves: then a stem leads to a loop, with one fragment on
@@ -318,7 +294,7 @@ fn curled_cracks_leave_no_stems() {
 #[test]
 fn the_same_settings_give_the_same_bits() {
     for case in 0..20 {
-        let mut draws = Draws { seed: case, next: 0 };
+        let mut draws = Draws::new(case, STREAM);
         let pane = any_outline(&mut draws);
         let settings = any_settings(&mut draws, &pane);
         let grow = || Pattern::grow(&pane, &settings).unwrap();

@@ -1,5 +1,6 @@
 //! Bodies that touch, against what mechanics says of a block that falls, slides, tips or stands.
 
+mod following;
 mod wall;
 
 use std::ops::ControlFlow;
@@ -11,6 +12,7 @@ use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::loading::Resistance;
 use brisance_engine::scene::Scene;
 use brisance_engine::simulation::Simulation;
+use following::follow;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use wall::{BRICK, block, bricks, run, scene};
@@ -55,14 +57,7 @@ impl Yard {
     }
 
     fn step(&mut self, dt: f64) {
-        let states = &mut self.states;
-        self.world.step(dt, |moved, position, rotation, velocity, spin| {
-            let state = &mut states[moved.index];
-            state.position = position;
-            state.world_from_principal = rotation;
-            state.velocity = velocity;
-            state.angular_momentum = rotation.conjugate() * spin / state.inverse_moments;
-        });
+        follow(&mut self.world, &mut self.states, dt, |_| {});
     }
 
     fn energy(&self) -> f64 {

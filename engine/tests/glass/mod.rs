@@ -1,12 +1,16 @@
 //! The shards of a broken pane as bodies in the contact world, thrown as a test wants them.
 #![allow(dead_code)] // each test program uses its own part
 
+#[path = "../following/mod.rs"]
+mod following;
+
 use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, Passes};
 use brisance_engine::dynamics::ground::Ground;
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::fracture::{Fineness, Pieces, Recipe};
 use brisance_engine::geometry::{Polygon, PrincipalAxes};
 use brisance_engine::loading::Resistance;
+use following::follow;
 use glam::{DVec2, DVec3};
 
 /// Shards in flight and on the ground.
@@ -71,14 +75,7 @@ pub fn pane(count: usize, thickness: f64, throw: impl Fn(DVec3) -> (DVec3, DVec3
 
 impl Glass {
     pub fn step(&mut self, dt: f64) {
-        let states = &mut self.states;
-        self.world.step(dt, |moved, position, rotation, velocity, spin| {
-            let state = &mut states[moved.index];
-            state.position = position;
-            state.world_from_principal = rotation;
-            state.velocity = velocity;
-            state.angular_momentum = rotation.conjugate() * spin / state.inverse_moments;
-        });
+        follow(&mut self.world, &mut self.states, dt, |_| {});
     }
 
     /// Height of the lowest corner of a shard [m].

@@ -1,11 +1,15 @@
 //! Boxes, shards and meshes as bodies in the contact world, and how deep they are in each other: by their true outlines,
 //! not by their collision shapes.
 
+#[path = "../following/mod.rs"]
+mod following;
+
 use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, Passes, REACH, step_at};
 use brisance_engine::dynamics::ground::Ground;
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::geometry::{MassProperties, Polygon, PrincipalAxes, TriangleMesh};
 use brisance_engine::loading::Resistance;
+use following::follow;
 use glam::{DQuat, DVec2, DVec3};
 
 /// What a body truly is, about its centre of mass in its own frame.
@@ -191,15 +195,8 @@ impl Rubble {
     pub fn step(&mut self) -> f64 {
         let fastest = self.states.iter().map(|s| s.velocity.length()).fold(0.0, f64::max);
         let dt = step_at(fastest);
-        let (states, asleep) = (&mut self.states, &mut self.asleep);
-        self.world.step(dt, |moved, position, rotation, velocity, spin| {
-            let state = &mut states[moved.index];
-            asleep[moved.index] = moved.asleep;
-            state.position = position;
-            state.world_from_principal = rotation;
-            state.velocity = velocity;
-            state.angular_momentum = rotation.conjugate() * spin / state.inverse_moments;
-        });
+        let asleep = &mut self.asleep;
+        follow(&mut self.world, &mut self.states, dt, |moved| asleep[moved.index] = moved.asleep);
         for (index, state) in self.states.iter_mut().enumerate() {
             if !self.gone[index] && state.position.length() > REACH {
                 self.world.leave(index);
