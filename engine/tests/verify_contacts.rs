@@ -6,7 +6,7 @@ mod wall;
 use std::ops::ControlFlow;
 
 use brisance_engine::charge::Charge;
-use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, Passes};
+use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes};
 use brisance_engine::dynamics::ground::{Ground, RESTITUTION};
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::loading::Resistance;
@@ -17,7 +17,8 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use wall::{BRICK, block, bricks, run, scene};
 
-const STEP: f64 = 1.0 / 240.0;
+/// As long as a run's.
+const STEP: f64 = LONGEST_STEP;
 
 /// A uniform box in the contact world.
 fn solid(size: DVec3, position: DVec3, mass: f64) -> RigidBody {
@@ -290,7 +291,7 @@ proptest! {
         let mut yard = Yard::new(&sizes, states.collect(), 0.5);
         let (start, mut before) = (yard.energy(), yard.energy());
         // A box thrown at 28 m/s slides and tumbles for some ten seconds.
-        for _ in 0..4800 {
+        for _ in 0..(20.0 / STEP) as usize {
             yard.step(STEP);
             let now = yard.energy();
             prop_assert!(now < before + 2e-2 * start, "{before} J rise to {now} J of {start}");
