@@ -214,8 +214,8 @@ impl ContactWorld {
             .motion_locks(locks);
         if !body.anchored {
             def = def
-                .linear_velocity(single(state.velocity.clamp_length_max(f64::from(FASTEST))))
-                .angular_velocity(single(turn(state)))
+                .linear_velocity(single(capped_velocity(state)))
+                .angular_velocity(single(capped_spin(state)))
                 .awake(awake);
         }
         let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
@@ -302,9 +302,8 @@ impl ContactWorld {
         if !state.velocity.is_finite() || !state.angular_velocity().is_finite() {
             return;
         }
-        let speed = f64::from(FASTEST);
-        self.world.set_body_linear_velocity(id, single(state.velocity.clamp_length_max(speed))).expect(SOUND);
-        self.world.set_body_angular_velocity(id, single(turn(state))).expect(SOUND);
+        self.world.set_body_linear_velocity(id, single(capped_velocity(state))).expect(SOUND);
+        self.world.set_body_angular_velocity(id, single(capped_spin(state))).expect(SOUND);
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
@@ -361,8 +360,13 @@ fn mass(state: &RigidBody, gain: f64) -> MassData {
     MassData { mass: (gain * mass).clamp(MASSES.0, MASSES.1) as f32, center: Vec3::ZERO, inertia }
 }
 
-/// How fast a body turns [rad/s].
-fn turn(state: &RigidBody) -> DVec3 {
+/// A body's velocity as Box3D may have it [m/s].
+fn capped_velocity(state: &RigidBody) -> DVec3 {
+    state.velocity.clamp_length_max(f64::from(FASTEST))
+}
+
+/// The same for how it turns [rad/s].
+fn capped_spin(state: &RigidBody) -> DVec3 {
     state.angular_velocity().clamp_length_max(FASTEST_TURN)
 }
 
