@@ -9,6 +9,7 @@
 //! (`docs/decisions/0001-contacts.md`). So the bits are the same for any number of threads, and Box3D avoids the platform's
 //! mathematics library and fused operations.
 
+mod bearing;
 mod cells;
 mod hull;
 mod mortar;
@@ -25,6 +26,7 @@ use glam::{DQuat, DVec3};
 
 use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
 use super::{GRAVITY, RigidBody};
+use bearing::Bearing;
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
 pub use shape::CollisionShape;
@@ -125,6 +127,7 @@ pub struct ContactWorld {
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
     standstills: Vec<Standstill>,
+    bearings: Vec<Bearing>,
     /// Box3D's masses are this many times ours. Only their ratios matter to motion, and the moments of a splinter of
     /// glass are so small that their product is nothing in single precision: it would turn forever.
     gain: f64,
@@ -180,10 +183,11 @@ impl ContactWorld {
         let standstills = vec![Standstill::new(DVec3::ZERO, DQuat::IDENTITY, 0.0); bodies.len()];
         Self {
             world,
-            bodies,
             ids,
             index: HashMap::new(),
             standstills,
+            bearings: vec![Bearing::NONE; bodies.len()],
+            bodies,
             gain,
             bonds: Bonds::new(gain),
             origin,
@@ -241,6 +245,7 @@ impl ContactWorld {
         if !body.anchored {
             self.world.set_body_mass_data(id, mass(state, self.gain)).expect(SOUND);
         }
+        self.bearings[index] = Bearing::NONE;
         self.ids[index] = Some(id);
         self.index.insert(id, index);
         self.standstills[index] = Standstill::new(state.position, state.world_from_principal, state.reach);
@@ -333,6 +338,8 @@ impl ContactWorld {
                 spin = spin.clamp_length_max(FASTEST_TURN);
                 self.world.set_body_angular_velocity(event.body_id, single(spin)).expect(SOUND);
             }
+            let speed = velocity.length() + spin.length() * standstill.reach();
+            self.bearings[index].watch(&mut self.world, event.body_id, speed, dt);
             let moved = Moved { index, asleep: event.fell_asleep, still };
             update(moved, position, rotation, velocity, spin);
         }

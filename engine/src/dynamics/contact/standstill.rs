@@ -35,6 +35,11 @@ impl Standstill {
         self.time >= TIME
     }
 
+    /// Distance of the body's farthest part from its centre of mass [m].
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// Takes in where the body is after a step of `dt` [s].
     pub fn watch(&mut self, position: DVec3, rotation: DQuat, dt: f64) {
         let turn = self.rotation.conjugate() * rotation;
