@@ -141,6 +141,28 @@ fn a_stack_of_ten_blocks_stands() {
     assert_eq!(yard.world.awake(), 0);
 }
 
+/// Four small blocks carry one of ten thousand times their mass. Contacts alone would give way by W/(m ω²), some 30 mm,
+/// three times the height of the small blocks; they may by a millimetre above and one below, and by what a body that is
+/// pressed in less than that is left with.
+#[test]
+fn light_blocks_bear_a_heavy_one() {
+    let (small, large) = (DVec3::new(0.03, 0.01, 0.03), DVec3::splat(0.3));
+    let place = |x: f64, z: f64| DVec3::new(0.12 * x, 0.005, 0.12 * z);
+    let mut states: Vec<_> =
+        [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, z)| solid(small, place(x, z), 0.01)).into();
+    states.push(solid(large, DVec3::Y * 0.16, 100.0));
+    let mut yard = Yard::new(&[small, small, small, small, large], states, 0.6);
+    for _ in 0..(3.0 / STEP) as usize {
+        yard.step(STEP);
+    }
+    assert_eq!(yard.world.awake(), 0);
+    for light in &yard.states[..4] {
+        let into_ground = 0.005 - light.position.y;
+        let into_heavy = light.position.y + 0.005 - (yard.states[4].position.y - 0.15);
+        assert!(into_ground < 1.2e-3 && into_heavy < 1.2e-3, "by {into_ground} and {into_heavy} m");
+    }
+}
+
 /// A heap of blocks thrown at each other never gains energy. What is allowed is a thousandth of what it starts with,
 /// for rounding and for contacts that are soft.
 #[test]
