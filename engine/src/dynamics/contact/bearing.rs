@@ -1,15 +1,19 @@
-//! Light bodies that carry heavy ones.
+//! Bodies that hardly move and yet are deep in another.
 //!
-//! The stiffness of a contact goes with the lighter of its two bodies, so a shard under a crate is pressed into it and
-//! into the ground by W/(m ω²). A body that hardly moves and is deeper in another than [`DEPTH`] therefore gets a larger
-//! mass in the physics engine, doubled until it carries what lies on it. Its mass plays no part in how it is driven, and
-//! it has its own again as soon as it moves.
+//! A light one may carry a heavy one. The stiffness of a contact goes with the lighter of its two bodies, so a shard
+//! under a crate is pressed into it and into the ground by W/(m ω²). It gets a larger mass in the physics engine, doubled
+//! until it carries what lies on it. Its mass plays no part in how it is driven, and it has its own again as soon as it
+//! moves.
+//!
+//! Or two shards that met edge on have locked: parts of the one press the other from both sides, and neither gets away.
+//! They are moved apart along the line between their centres, across the direction in which they hold each other.
 
-use boxddd::{BodyId, MassData, Matrix3, Vec3, World};
+use boxddd::{BodyId, ContactData, MassData, Matrix3, Vec3, World};
+use glam::DVec3;
 
-use super::SOUND;
+use super::{SOUND, double, single};
 
-/// How deep a body may be pressed in before it is made to bear more [m].
+/// How deep a body may be in another before something is done about it [m].
 const DEPTH: f64 = 1e-3;
 /// A body slower than this may lie under another [m/s].
 const SLOW: f64 = 0.3;
@@ -21,6 +25,8 @@ const PERIOD: f64 = 0.02;
 const MOST: f32 = 4096.0;
 /// Box3D multiplies the three moments of a body, in single precision [in its units].
 const LARGEST_MOMENT: f32 = 1e12;
+/// By so much two bodies that have locked are moved apart at each look [m].
+const PART: f64 = 1e-3;
 
 /// How much more mass a body has than its own, and when its contacts are looked at next.
 #[derive(Debug, Clone, Copy)]
@@ -31,86 +37,107 @@ pub struct Bearing {
     wait: f64,
 }
 
+/// What holds a body that is deep in others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Grip {
+    /// It is not deep in anything.
+    None,
+    /// It is pressed into something heavier.
+    Pressed,
+    /// It has locked with another, and gets out by this shift [m].
+    Locked(DVec3),
+}
+
 impl Bearing {
     /// A body with its own mass.
     pub const NONE: Self = Self { factor: 1.0, wait: PERIOD };
 
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
     pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
-        let before = self.factor;
-        self.adapt(speed, dt, || is_pressed_in(world, id));
-        let change = self.factor / before;
-        if change == 1.0 {
-            return;
-        }
-        // A factor of two changes no digit, so that a body gets back the very mass it had.
-        let MassData { mass, center, inertia } = world.body_mass_data(id).expect(SOUND);
-        let [x, y, z] = [inertia.cx.x, inertia.cy.y, inertia.cz.z].map(|moment| change * moment);
-        if x.max(y).max(z) > LARGEST_MOMENT {
-            self.factor = before;
-            return;
-        }
-        let inertia =
-            Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
-        world.set_body_mass_data(id, MassData { mass: change * mass, center, inertia }).expect(SOUND);
-    }
-
-    fn adapt(&mut self, speed: f64, dt: f64, is_pressed_in: impl FnOnce() -> bool) {
-        if speed > FAST {
+        if speed > FAST && self.factor > 1.0 {
+            gain_mass(world, id, 1.0 / self.factor);
             *self = Self::NONE;
+        }
+        if !self.is_due(speed, dt) {
             return;
         }
+        match grip(world, id) {
+            Grip::None => {}
+            Grip::Pressed => {
+                if self.factor < MOST && gain_mass(world, id, 2.0) {
+                    self.factor *= 2.0;
+                }
+            }
+            Grip::Locked(shift) => {
+                let at = place(world, id) + shift;
+                let rotation = world.body_rotation(id).expect(SOUND);
+                world.set_body_transform(id, single(at), rotation).expect(SOUND);
+            }
+        }
+    }
+
+    /// Whether it is time to look at the contacts of a body that hardly moves.
+    fn is_due(&mut self, speed: f64, dt: f64) -> bool {
         self.wait -= dt;
-        if self.wait > 0.0 || speed > SLOW {
-            return;
+        let due = self.wait <= 0.0 && speed <= SLOW;
+        if due {
+            self.wait = PERIOD;
         }
-        self.wait = PERIOD;
-        if self.factor < MOST && is_pressed_in() {
-            self.factor *= 2.0;
-        }
+        due
     }
 }
 
-/// Whether a body is deep in a heavier one.
-fn is_pressed_in(world: &World, id: BodyId) -> bool {
-    let mass = |id: BodyId| world.body_mass(id).expect(SOUND);
+/// Multiplies a body's mass and moments by a power of two, which changes no digit, so that it can get back the very mass
+/// it had. Returns whether it did: Box3D could not invert larger moments.
+fn gain_mass(world: &mut World, id: BodyId, times: f32) -> bool {
+    let MassData { mass, center, inertia } = world.body_mass_data(id).expect(SOUND);
+    let [x, y, z] = [inertia.cx.x, inertia.cy.y, inertia.cz.z].map(|moment| times * moment);
+    if x.max(y).max(z) > LARGEST_MOMENT {
+        return false;
+    }
+    let inertia =
+        Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
+    world.set_body_mass_data(id, MassData { mass: times * mass, center, inertia }).expect(SOUND);
+    true
+}
+
+fn grip(world: &World, id: BodyId) -> Grip {
+    let mass = |id: BodyId| f64::from(world.body_mass(id).expect(SOUND));
+    let body_of = |shape| world.shape_body(shape).expect(SOUND);
     let own = mass(id);
-    world.body_contacts(id).expect(SOUND).iter().any(|contact| {
-        let points = contact.manifolds.iter().flat_map(|manifold| manifold.points());
-        let separation = points.map(|point| point.separation).fold(0.0, f32::min);
-        f64::from(separation) < -DEPTH && {
-            let bodies = [contact.shape_id_a, contact.shape_id_b].map(|shape| world.shape_body(shape));
+    let mut pressed = false;
+    // The other body, and the direction from it.
+    let mut held: Vec<(BodyId, DVec3)> = Vec::new();
+    for contact in world.body_contacts(id).expect(SOUND) {
+        let (a, b) = (body_of(contact.shape_id_a), body_of(contact.shape_id_b));
+        let (other, sense) = if a == id { (b, -1.0) } else { (a, 1.0) };
+        let heavy = mass(other);
+        for normal in deep_normals(&contact) {
+            let normal = sense * normal;
             // What does not move has no mass.
-            bodies.into_iter().all(|body| {
-                let body = body.expect(SOUND);
-                body == id || mass(body) == 0.0 || mass(body) > own
-            })
+            pressed |= heavy == 0.0 || heavy > own;
+            if held.iter().any(|&(body, from)| body == other && from.dot(normal) < -0.5) {
+                let apart = place(world, id) - place(world, other);
+                let out = apart.reject_from(normal).normalize_or_zero();
+                let share = if heavy == 0.0 { 1.0 } else { heavy / (heavy + own) };
+                return Grip::Locked(PART * share * out);
+            }
+            held.push((other, normal));
         }
-    })
+    }
+    if pressed { Grip::Pressed } else { Grip::None }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// A body's place about the middle of the scene [m].
+fn place(world: &World, id: BodyId) -> DVec3 {
+    let at = world.body_position(id).expect(SOUND);
+    DVec3::new(at.x.into(), at.y.into(), at.z.into())
+}
 
-    #[test]
-    fn a_body_bears_more_while_it_is_pressed_in_and_has_its_own_mass_once_it_moves() {
-        let mut bearing = Bearing::NONE;
-        let mut after = |speed: f64, dt: f64, deep: Option<bool>| {
-            bearing.adapt(speed, dt, || deep.expect("its contacts are not looked at"));
-            bearing.factor
-        };
-        assert_eq!(after(0.0, 0.5 * PERIOD, None), 1.0);
-        assert_eq!(after(0.0, PERIOD, Some(true)), 2.0);
-        assert_eq!(after(0.0, 0.5 * PERIOD, None), 2.0);
-        assert_eq!(after(0.0, PERIOD, Some(true)), 4.0);
-        assert_eq!(after(0.0, PERIOD, Some(false)), 4.0);
-        // Too fast to lie under anything, and so fast that it has come free.
-        assert_eq!(after(0.9 * FAST, PERIOD, None), 4.0);
-        assert_eq!(after(1.1 * FAST, PERIOD, None), 1.0);
-        for _ in 0..30 {
-            after(0.0, PERIOD, Some(true));
-        }
-        assert_eq!(bearing.factor, MOST);
-    }
+/// Normals from the first shape to the second where the two are deep in each other.
+fn deep_normals(contact: &ContactData) -> impl Iterator<Item = DVec3> + '_ {
+    let deep = |manifold: &&boxddd::Manifold| {
+        manifold.points().iter().any(|point| f64::from(point.separation) < -DEPTH)
+    };
+    contact.manifolds.iter().filter(deep).map(|manifold| double(manifold.normal))
 }
