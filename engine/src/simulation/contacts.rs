@@ -19,7 +19,7 @@ use crate::dynamics::contact::{
 use crate::dynamics::ground::CALM_SPEED;
 use crate::dynamics::{Bodies, RigidBody, Winds};
 use crate::error::Result;
-use crate::geometry::MassProperties;
+use crate::geometry::{MassProperties, bounds};
 use crate::scene::{Body, Scene, Shape};
 
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
@@ -86,10 +86,8 @@ impl Contacts {
         let holds_glass = |&(body, _): &(&ContactBody, &Target)| body.passes == Passes::Glass;
         let frames =
             bodies.iter().zip(targets).filter(holds_glass).map(|(_, target)| target.bounds).collect();
-        let bounds = targets.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), target| {
-            (low.min(target.bounds.0), high.max(target.bounds.1))
-        });
-        let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (bounds.0 + bounds.1) };
+        let (low, high) = bounds(targets.iter().flat_map(|target| [target.bounds.0, target.bounds.1]));
+        let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (low + high) };
         let mut world = ContactWorld::new(bodies, scene.ground, origin);
         let track = Track { moved: 0.0, asleep: true, far: false };
         let mut tracks = vec![track; targets.len()];
@@ -290,12 +288,7 @@ fn reaches(body: &RigidBody, corners: &[DVec3], (low, high): (DVec3, DVec3)) -> 
     if body.position.distance_squared(nearest) > body.reach * body.reach {
         return false;
     }
-    let (from, to) = corners
-        .iter()
-        .map(|&corner| body.position + body.world_from_principal * corner)
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(from, to), corner| {
-            (from.min(corner), to.max(corner))
-        });
+    let (from, to) = bounds(corners.iter().map(|&corner| body.position + body.world_from_principal * corner));
     from.cmplt(high).all() && to.cmpgt(low).all()
 }
 
