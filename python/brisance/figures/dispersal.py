@@ -216,7 +216,8 @@ def _bounds(lying: Lying) -> Points:
     points = np.concatenate([lying.origin[None], *lying.before, *ends])
     low, high = points.min(axis=0), points.max(axis=0)
     half = 0.55 * max(float((high - low).max()), 1.0)
-    return 0.5 * (low + high) + np.array([[-half], [half]])
+    middle = 0.5 * (low + high)
+    return np.array([middle - half, middle + half])
 
 
 def _draw_rings(axes: Axes, lying: Lying) -> None:
