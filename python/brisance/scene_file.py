@@ -44,8 +44,10 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
     path = Path(path)
     data = _parse(path)
     changed = [_apply(data, override) for override in overrides]
-    if "time.duration" in changed and "time.longest" not in changed and data["time"]["duration"] != "rest":
-        data["time"].pop("longest", None)
+    clock = data.get("time")
+    by_number = "time.duration" in changed and "time.longest" not in changed
+    if by_number and isinstance(clock, dict) and clock.get("duration") != "rest":
+        clock.pop("longest", None)
     return scene_of(data, path, changed)
 
 

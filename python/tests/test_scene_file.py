@@ -382,6 +382,7 @@ def test_longest_counts_only_where_a_run_lasts_until_rest(tmp_path: Path) -> Non
 def test_a_duration_on_the_command_line_takes_the_place_of_rest_and_its_longest() -> None:
     path = SCENES / "brick_wall_aftermath.toml"
     assert load(path, ["time.duration=2"]).time.end == 2.0
+    assert refusal(path, "time.duration=2", "time=5").startswith("--set: time must be ")
     assert load(path, ["time.duration=rest"]).time.longest == load(path).time.longest == 15.0
 
 
