@@ -1,6 +1,7 @@
 //! The run: bodies wait for the front, are loaded, leave their places, fly and land.
 
 mod contacts;
+mod frames;
 mod free_flight;
 mod later;
 mod life;

@@ -1,6 +1,8 @@
 //! Mass properties and outlines against closed forms. Tolerances are rounding of sums over a few hundred terms.
 
-use brisance_engine::geometry::{JOINT, MassProperties, Outline, PrincipalAxes, Silhouette, TriangleMesh};
+use brisance_engine::geometry::{
+    JOINT, MassProperties, Outline, PrincipalAxes, Silhouette, TriangleMesh, bounds,
+};
 use brisance_engine::loading::{box_panels, mesh_panels};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use proptest::prelude::*;
@@ -157,7 +159,32 @@ fn a_gap_wider_than_a_joint_relieves() {
     assert!((wings(0.01).distance_to_edge(place) - 2.0).abs() < 1e-9);
 }
 
+/// No points leave a box that any other swallows and none overlaps.
+#[test]
+fn no_points_have_bounds_that_hold_nothing() {
+    assert_eq!(bounds(core::iter::empty::<DVec3>()), (DVec3::INFINITY, DVec3::NEG_INFINITY));
+    let point = DVec2::new(2.0, -3.0);
+    let (low, high) = bounds(core::iter::empty::<DVec2>());
+    assert_eq!((low.min(point), high.max(point)), bounds([point]));
+}
+
 proptest! {
+    /// Bounds are those of each coordinate sorted by itself, in the plane and in space.
+    #[test]
+    fn bounds_are_the_ends_of_every_coordinate(
+        points in prop::collection::vec(prop::array::uniform3(-1e6f64..1e6), 1..20),
+    ) {
+        let (low, high) = bounds(points.iter().map(|&p| DVec3::from_array(p)));
+        for axis in 0..3 {
+            let mut sorted: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+            sorted.sort_by(f64::total_cmp);
+            prop_assert_eq!((low[axis], high[axis]), (sorted[0], sorted[sorted.len() - 1]));
+        }
+        let flat = bounds(points.iter().map(|&p| DVec3::from_array(p).truncate()));
+        prop_assert_eq!(flat, (low.truncate(), high.truncate()));
+    }
+
+
     /// A box as a mesh, anywhere and turned, has the box's own mass, centre and moments.
     #[test]
     fn a_box_mesh_equals_the_box(

@@ -9,7 +9,8 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -37,13 +38,28 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
     """Read a scene file.
 
     ``overrides`` are changes such as ``"charge.0.mass=50"``, applied in order before anything is checked; the
-    value is TOML, and a bare word counts as text. Raises :class:`InputError` with one sentence for whatever
-    is wrong.
+    value is TOML, and a bare word counts as text. A duration that is a number takes the place of the file's
+    ``"rest"`` and of its ``longest``. Raises :class:`InputError` with one sentence for whatever is wrong.
     """
     path = Path(path)
     data = _parse(path)
     changed = [_apply(data, override) for override in overrides]
+    clock = data.get("time")
+    by_number = "time.duration" in changed and "time.longest" not in changed
+    if by_number and isinstance(clock, dict) and clock.get("duration") != "rest":
+        clock.pop("longest", None)
     return scene_of(data, path, changed)
+
+
+@contextmanager
+def telling_of(path: Path | str) -> Iterator[None]:
+    """Begin what is found wrong with a scene only as it is built or simulated with its file, as
+    :func:`load` does.
+    """
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
 
 
 def read_tables(path: Path | str) -> dict[str, Any]:

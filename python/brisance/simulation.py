@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from brisance import _engine
 from brisance.curve_table import curve_source
 from brisance.errors import InputError
+from brisance.idle_keys import idle_keys
 from brisance.interrupt import if_stopped, restore_terminal
 from brisance.memory import check_fits, most_pieces
 from brisance.model import AnyObject, Scene, Window
@@ -177,6 +178,7 @@ def _check_names(sets: list[PieceSet]) -> None:
 
 def _warnings(scene: Scene, sets: list[PieceSet]) -> list[str]:
     warnings = [warning for group in sets for warning in group.warnings]
+    warnings += idle_keys(scene)
     if scene.ground is None and not all(obj.anchored for obj in scene.objects):
         warnings.append("The scene has no [ground], so nothing stops what falls.")
     if not sets:

@@ -28,17 +28,24 @@ def refusal(capsys: Capture, scene: str, output: Path, *changes: str) -> str:
 def test_a_body_at_no_finite_place_is_named_with_the_time(capsys: Capture, tmp_path: Path) -> None:
     output = tmp_path / "crates.usdc"
     sentence = refusal(capsys, "crates.toml", output, "block.1.position.0=1e150")
-    assert sentence.startswith("brisance: turned crate: its pose is not finite at 0 s; ")
+    assert sentence.startswith(
+        f"brisance: {SCENES / 'crates.toml'}: turned crate: its pose is not finite at 0 s; "
+    )
     assert sentence.endswith("nearer to real ones.\n")
     # A sheet as thin as that weighs nothing: the first front throws it beyond all numbers.
     sentence = refusal(capsys, "crates.toml", output, "block.1.size.2=1e-308")
-    assert sentence.startswith("brisance: turned crate: its pose is not finite at 0.0")
+    assert sentence.startswith(
+        f"brisance: {SCENES / 'crates.toml'}: turned crate: its pose is not finite at 0.0"
+    )
 
 
 def test_a_piece_of_a_pane_is_named_by_its_window(capsys: Capture, tmp_path: Path) -> None:
     output = tmp_path / "window.usdc"
     sentence = refusal(capsys, "window_thesis.toml", output, "window.0.position.0=1e150")
-    assert sentence.startswith("brisance: a piece of window.0 (window): its pose is not finite at 0 s; ")
+    scene = SCENES / "window_thesis.toml"
+    assert sentence.startswith(
+        f"brisance: {scene}: a piece of window.0 (window): its pose is not finite at 0 s; "
+    )
 
 
 @pytest.mark.parametrize(
@@ -54,4 +61,19 @@ def test_what_contacts_cannot_compute_with_is_named(
     capsys: Capture, tmp_path: Path, change: str, problem: str
 ) -> None:
     sentence = refusal(capsys, "crates.toml", tmp_path / "crates.usdc", change, "dynamics.contacts=true")
-    assert problem in sentence
+    assert sentence.startswith(f"brisance: {SCENES / 'crates.toml'}: {problem}")
+
+
+@pytest.mark.parametrize("command", ["run", "inspect"])
+def test_what_is_found_as_a_scene_is_built_begins_with_its_file(
+    capsys: Capture, tmp_path: Path, command: str
+) -> None:
+    scene = tmp_path / "can.toml"
+    scene.write_text(
+        "[[charge]]\nmass = 1\nposition = [0, 1, -3]\n"
+        "[[mesh]]\nname = 'can'\nfile = 'none.obj'\ndensity = 600\n"
+    )
+    assert main([command, str(scene)]) == 2
+    sentence = capsys.readouterr().err
+    assert sentence.startswith(f'brisance: {scene}: mesh "can": file ')
+    assert sentence.count(str(scene)) == 1

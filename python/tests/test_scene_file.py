@@ -14,7 +14,7 @@ from brisance import _engine
 from brisance.curve_table import curve_source
 from brisance.errors import InputError
 from brisance.scene_file import dump, load
-from brisance.simulation import simulate
+from brisance.simulation import build, simulate
 
 SCENES = Path(__file__).parents[2] / "scenes"
 
@@ -358,3 +358,69 @@ def test_a_wrong_curve_table_is_refused(tmp_path: Path, text: str, said: str) ->
     assert sentence.startswith("charge.0: ")
     assert "own.csv" in sentence
     assert said in sentence
+
+
+def test_longest_counts_only_where_a_run_lasts_until_rest(tmp_path: Path) -> None:
+    path = written(tmp_path, SMALL)
+    both = refusal(path, "time.duration=3", "time.longest=5")
+    assert both == (
+        "--set: time has a longest of 5 s beside a duration of 3 s; take one of them out: "
+        'longest is for duration = "rest".'
+    )
+    text = (
+        SMALL.replace("[time]", "[time]\nlongest = 5")
+        if "[time]" in SMALL
+        else f"{SMALL}\n[time]\nlongest = 5\n"
+    )
+    assert refusal(written(tmp_path, text, "longest.toml")).startswith(
+        f"{tmp_path / 'longest.toml'}: time has a longest"
+    )
+    with pytest.raises(InputError, match="Time has a longest of 5 s beside a duration of 1 s"):
+        br.Time(longest=5)
+
+
+def test_a_duration_on_the_command_line_takes_the_place_of_rest_and_its_longest() -> None:
+    path = SCENES / "brick_wall_aftermath.toml"
+    assert load(path, ["time.duration=2"]).time.end == 2.0
+    assert refusal(path, "time.duration=2", "time=5").startswith("--set: time must be ")
+    assert load(path, ["time.duration=rest"]).time.longest == load(path).time.longest == 15.0
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "warnings"),
+    [
+        ("brick_wall_aftermath.toml", [], []),
+        (
+            "brick_wall_aftermath.toml",
+            ["dynamics.contacts=false"],
+            ["wall: its mortar binds nothing, for its bricks do not touch; set dynamics.contacts = true."],
+        ),
+        ("brick_wall.toml", [], []),
+        ("tempered_door.toml", [], []),
+        (
+            "tempered_door.toml",
+            ["window.0.frame=false"],
+            ["{0}: bite counts for nothing without a frame; set frame = true."],
+        ),
+        (
+            "tempered_door.toml",
+            ["window.0.frame=false", "window.0.frame_material=wood"],
+            ["{0}: bite and frame_material count for nothing without a frame; set frame = true."],
+        ),
+        ("window_thesis.toml", [], []),
+        (
+            "window_thesis.toml",
+            ["window.0.strength=1e7"],
+            [
+                "{0}: strength counts for nothing, for the pane is in pieces before the blast; set "
+                'release = "as it cracks".'
+            ],
+        ),
+    ],
+)
+def test_keys_that_count_for_nothing_are_warned_of(
+    scene: str, changes: list[str], warnings: list[str]
+) -> None:
+    loaded = load(SCENES / scene, changes)
+    found = [warning for warning in build(loaded).warnings if "nothing" in warning]
+    assert found == [warning.format(loaded.objects[0].name) for warning in warnings]

@@ -93,6 +93,16 @@ def test_an_error_is_the_sentence_of_the_command_line(
     assert sentence.endswith("charge.0.mass must be greater than 0, not -5.")
 
 
+def test_an_error_of_a_run_begins_with_the_file(server: Server) -> None:
+    tables = wall()
+    tables["dynamics"] = {"contacts": True}
+    tables["brick_wall"][0]["position"] = [1e9, 0, 0]
+    with server.live() as link:
+        sentence = ask(link, 1, tables)
+    assert "brick_wall.toml: " in sentence.partition("position [m] is 1e9")[0]
+    assert "position [m] is 1e9" in sentence
+
+
 def test_a_newer_request_calls_an_older_one_off(server: Server) -> None:
     with server.live() as link:
         link.send(json.dumps({"id": 1, "file": "brick_wall.toml", "scene": endless()}))

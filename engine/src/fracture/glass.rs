@@ -21,7 +21,7 @@ use super::outline;
 use super::pattern::{MOST_PIECES, Pattern};
 use super::settings::{Depth, Forking, Guide, Nucleus, Order, Rings, Settings, Wiggle};
 use crate::error::{Error, Result, positive};
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, bounds};
 use crate::random;
 
 /// Kinds of glass that an artist asks for.
@@ -410,7 +410,7 @@ const FLAW_KEYS: u64 = 2;
 
 /// Some `count` points inside an outline, evenly spread and yet in no order: one at random in each cell of a grid.
 fn spread(outline: &Polygon, count: f64, seed: u64) -> Vec<DVec2> {
-    let (low, high) = bounds(outline);
+    let (low, high) = bounds(outline.points().iter().copied());
     let cell = libm::sqrt(outline.area() / count);
     let size = ((high - low) / cell).ceil();
     let (columns, rows) = (size.x as u64, size.y as u64);
@@ -437,13 +437,8 @@ fn grain(outline: &Polygon, nuclei: &[Nucleus], critical_length: f64) -> f64 {
     libm::sqrt(outline.area() / (arms + count * share / critical_length))
 }
 
-fn bounds(outline: &Polygon) -> (DVec2, DVec2) {
-    let points = outline.points().iter().copied();
-    (points.clone().fold(DVec2::INFINITY, DVec2::min), points.fold(DVec2::NEG_INFINITY, DVec2::max))
-}
-
 fn longer_side(outline: &Polygon) -> f64 {
-    let (low, high) = bounds(outline);
+    let (low, high) = bounds(outline.points().iter().copied());
     (high - low).max_element()
 }
 
@@ -453,7 +448,7 @@ fn middle(outline: &Polygon) -> DVec2 {
     if outline::contains(outline, centroid) {
         return centroid;
     }
-    let (low, high) = bounds(outline);
+    let (low, high) = bounds(outline.points().iter().copied());
     let grid = (1..32)
         .flat_map(|row| (1..32).map(move |column| DVec2::new(f64::from(column), f64::from(row)) / 32.0));
     grid.map(|share| low + (high - low) * share)

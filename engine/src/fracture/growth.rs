@@ -21,7 +21,7 @@ use super::grid::Grid;
 use super::run::{BORDER, NONE, Run};
 use super::settings::{Guide, Settings};
 use crate::error::{Error, Result};
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, bounds};
 use crate::random;
 
 /// Two places nearer than this share of the pane's extent are one. Far above rounding, far below any piece.
@@ -138,7 +138,7 @@ pub(super) struct Growth<'a> {
 impl<'a> Growth<'a> {
     /// Lays out the border and plants the nuclei. The outline is simple and the settings are valid.
     pub fn new(outline: &Polygon, settings: &'a Settings) -> Self {
-        let (low, high) = bounds(outline.points());
+        let (low, high) = bounds(outline.points().iter().copied());
         let extent = (high - low).max_element();
         let pieces = expected_pieces(outline, settings);
         let cell = cell_size(outline, settings, pieces, extent);
@@ -496,10 +496,6 @@ fn direction(angle: f64) -> DVec2 {
 
 fn rotated(heading: DVec2, angle: f64) -> DVec2 {
     heading.rotate(direction(angle)).normalize()
-}
-
-fn bounds(points: &[DVec2]) -> (DVec2, DVec2) {
-    points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 /// About how many pieces there will be.

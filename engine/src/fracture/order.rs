@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::growth::{Stop, Traces};
 use super::run::NONE;
 use super::settings::Settings;
+use crate::geometry::bounds;
 
 /// Bits of a place along each axis.
 const BITS: u32 = 16;
@@ -77,8 +78,7 @@ fn ranks(traces: &Traces, settings: &Settings) -> Vec<u32> {
 /// Nuclei along a Z-shaped curve through the pane (Morton 1966).
 fn along_curve(settings: &Settings) -> Vec<u32> {
     let places = settings.nuclei.iter().map(|nucleus| nucleus.position);
-    let low = places.clone().fold(DVec2::INFINITY, DVec2::min);
-    let high = places.clone().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (low, high) = bounds(places.clone());
     let steps = f64::from((1u32 << BITS) - 1) / (high - low).max_element().max(f64::MIN_POSITIVE);
     let mut keyed: Vec<(u32, u32)> = (0..)
         .zip(places)

@@ -4,7 +4,7 @@ use glam::DVec2;
 use robust::{Coord, orient2d};
 
 use crate::error::{Error, Result};
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, bounds};
 
 /// An outline may lie this many times its own size away from the origin, or its digits no longer tell places in it
 /// apart.
@@ -32,8 +32,7 @@ pub fn check(outline: &Polygon) -> Result<()> {
             return refuse("must run counter-clockwise round an area, and its holes clockwise");
         }
     }
-    let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (low, high) = bounds(points.iter().copied());
     if low.abs().max(high.abs()).max_element() > FARTHEST * (high - low).max_element() {
         return refuse("lies too far from the origin for its size; move it nearer");
     }

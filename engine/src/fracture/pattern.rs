@@ -10,7 +10,7 @@ use super::outline;
 use super::run::NONE;
 use super::settings::Settings;
 use crate::error::{Error, Result};
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, bounds};
 
 /// A straight stretch of crack, from where a tip started or turned to where it turned, forked or stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -209,9 +209,7 @@ impl Faces {
 const SHORTEST_STEP: f64 = 0.999e-4;
 
 fn fits(outline: &Polygon, settings: &Settings) -> Result<()> {
-    let points = outline.points();
-    let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (low, high) = bounds(outline.points().iter().copied());
     let size = (high - low).max_element();
     if settings.critical_length > size {
         return Err(Error::OutOfRange {

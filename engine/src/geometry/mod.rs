@@ -3,6 +3,7 @@
 //!
 //! This room knows nothing of air, charges or time. Lengths in metres, masses in kilograms.
 
+mod bounds;
 mod convex;
 mod mass;
 mod mesh;
@@ -14,6 +15,7 @@ mod samples;
 mod silhouette;
 mod triangulation;
 
+pub use bounds::{Coordinates, bounds};
 pub use convex::{convex_hull, convex_parts, simplified};
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Silhouette;
+use super::{Silhouette, bounds};
 
 /// Gaps between the members of an outline narrower than this relieve nothing [m].
 pub const JOINT: f64 = 0.02;
@@ -83,10 +83,7 @@ impl Outline {
 impl Member {
     fn new(silhouette: &Silhouette) -> Self {
         let corners = silhouette.corners().to_vec();
-        let fold = |pick: fn(DVec2, DVec2) -> DVec2, start: f64| {
-            corners.iter().fold(DVec2::splat(start), |bound, (corner, _)| pick(bound, *corner))
-        };
-        let (low, high) = (fold(DVec2::min, f64::INFINITY), fold(DVec2::max, f64::NEG_INFINITY));
+        let (low, high) = bounds(corners.iter().map(|&(corner, _)| corner));
         Self { corners, low, high }
     }
 

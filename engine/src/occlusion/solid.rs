@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::TriangleMesh;
+use crate::geometry::{TriangleMesh, bounds};
 
 /// A body in the world, ready to be seen from any charge.
 #[derive(Debug, Clone)]
@@ -83,9 +83,7 @@ impl<'a> View<'a> {
     pub fn new(form: &'a Form, eye: DVec3) -> Self {
         let mut vertices = form.vertices();
         vertices.iter_mut().for_each(|v| *v -= eye);
-        let (low, high) = vertices
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)));
+        let (low, high) = bounds(vertices.iter().copied());
         let middle = 0.5 * (low + high);
         let reach = vertices.iter().map(|v| v.distance_squared(middle)).fold(0.0, f64::max);
         Self { form, vertices, middle, radius: libm::sqrt(reach), eye }

@@ -2,11 +2,12 @@
 //!
 //! A step puts on each body the exact impulse of its loads and of the wind, then all of them move together. Steps are
 //! fine while loads act and bodies are thrown, and as long as contacts allow otherwise. Bodies sleep until a load or
-//! another body wakes them; a piece of a pane joins when it is free.
+//! another body wakes them; a piece of a pane joins when it is free, or when it is sure to stay where it is.
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
+use super::frames::Frames;
 use super::life::Phase;
 use super::motion::Motion;
 use super::state::State;
@@ -19,7 +20,7 @@ use crate::dynamics::contact::{
 use crate::dynamics::ground::CALM_SPEED;
 use crate::dynamics::{Bodies, RigidBody, Winds};
 use crate::error::Result;
-use crate::geometry::MassProperties;
+use crate::geometry::{MassProperties, bounds};
 use crate::scene::{Body, Scene, Shape};
 
 /// Below this speed the air's resistance is a few thousandths of the weight of the thinnest shard [m/s].
@@ -42,10 +43,7 @@ pub(super) struct Contacts {
     fastest: f64,
     /// Middle of the scene [m].
     origin: DVec3,
-    /// Bounds of what glass sits in [m].
-    frames: Vec<(DVec3, DVec3)>,
-    /// Free pieces of panes that have yet to leave their frames.
-    leaving: Vec<usize>,
+    frames: Frames,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -83,13 +81,9 @@ impl Contacts {
                 passes: passes(body, target),
             })
             .collect();
-        let holds_glass = |&(body, _): &(&ContactBody, &Target)| body.passes == Passes::Glass;
-        let frames =
-            bodies.iter().zip(targets).filter(holds_glass).map(|(_, target)| target.bounds).collect();
-        let bounds = targets.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), target| {
-            (low.min(target.bounds.0), high.max(target.bounds.1))
-        });
-        let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (bounds.0 + bounds.1) };
+        let frames = Frames::new(scene, targets, &bodies);
+        let (low, high) = bounds(targets.iter().flat_map(|target| [target.bounds.0, target.bounds.1]));
+        let origin = if targets.is_empty() { DVec3::ZERO } else { 0.5 * (low + high) };
         let mut world = ContactWorld::new(bodies, scene.ground, origin);
         let track = Track { moved: 0.0, asleep: true, far: false };
         let mut tracks = vec![track; targets.len()];
@@ -99,7 +93,7 @@ impl Contacts {
             }
         }
         world.bind(&bonds(scene));
-        Self { world, tracks, loaded, fastest: 0.0, origin, frames, leaving: Vec::new() }
+        Self { world, tracks, loaded, fastest: 0.0, origin, frames }
     }
 }
 
@@ -163,10 +157,11 @@ impl Motion for Contacts {
             state.lives[index].change = None;
             let far = !self.world.join(index, &sound(state, index, state.bodies.get(index), t1)?, true);
             self.tracks[index] = Track { moved: t1, asleep: false, far };
-            self.leaving.push(index);
+            self.frames.release(index);
             state.part(index, t1);
         }
-        self.leave_frames(state);
+        self.frames.settle(state, &mut self.world, t1);
+        self.frames.clear(state, &mut self.world);
         for index in 0..state.len() {
             self.account(state, index, t1);
         }
@@ -252,20 +247,6 @@ impl Contacts {
         }
     }
 
-    /// Pieces of panes meet the frame they sat in as soon as they are clear of it: not before, since the two overlap
-    /// while the piece is in the rebate, and would be driven apart.
-    fn leave_frames(&mut self, state: &State) {
-        let (frames, world) = (&self.frames, &mut self.world);
-        self.leaving.retain(|&index| {
-            let (body, corners) = (state.bodies.get(index), &state.lives[index].corners);
-            let is_in = frames.iter().any(|&frame| reaches(&body, corners, frame));
-            if !is_in {
-                world.meet_all(index);
-            }
-            is_in
-        });
-    }
-
     /// Notes what a step has made of a body.
     fn account(&self, state: &mut State, index: usize, t1: f64) {
         let (phase, life) = (state.phases[index], &state.lives[index]);
@@ -282,21 +263,6 @@ impl Contacts {
         }
         state.world.launch(&body, &mut state.phases[index], &mut state.lives[index], t1);
     }
-}
-
-/// Whether the bounds of a body with these corners in its principal axes [m] overlap others.
-fn reaches(body: &RigidBody, corners: &[DVec3], (low, high): (DVec3, DVec3)) -> bool {
-    let nearest = body.position.clamp(low, high);
-    if body.position.distance_squared(nearest) > body.reach * body.reach {
-        return false;
-    }
-    let (from, to) = corners
-        .iter()
-        .map(|&corner| body.position + body.world_from_principal * corner)
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(from, to), corner| {
-            (from.min(corner), to.max(corner))
-        });
-    from.cmplt(high).all() && to.cmpgt(low).all()
 }
 
 /// The state of a body as it is given to the contact world, which works in single precision.

@@ -109,6 +109,12 @@ impl Life {
         self.queue.acts(t0, t1) || self.held.as_deref().is_some_and(moves)
     }
 
+    /// Whether it is held for good and has come to its last place at a time [s].
+    pub fn is_settled(&self, now: f64) -> bool {
+        let settled = |held: &Held| held.until.is_infinite() && !held.hold.moves(now, f64::INFINITY);
+        self.held.as_deref().is_some_and(settled)
+    }
+
     /// Whether its loads are over at a time [s] and nothing holds it that is yet to let go.
     pub fn is_over(&self, now: f64) -> bool {
         let awaits = self.held.as_ref().is_some_and(|held| held.until.is_finite());

@@ -5,6 +5,7 @@ use core::ops::RangeInclusive;
 use glam::{DVec2, DVec3};
 
 use crate::error::{Error, Result};
+use crate::geometry::bounds;
 use crate::scene::{Body, Scene, Shape};
 use crate::window::Window;
 
@@ -65,8 +66,7 @@ fn place(position: DVec3) -> Result<()> {
 }
 
 fn extent(points: impl Iterator<Item = DVec3>) -> DVec3 {
-    let bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = points.fold(bounds, |(low, high), p| (low.min(p), high.max(p)));
+    let (low, high) = bounds(points);
     high - low
 }
 

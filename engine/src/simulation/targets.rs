@@ -11,7 +11,7 @@ use super::shelter::Shelters;
 use crate::blast::{BlastField, BlastPoint, Extension};
 use crate::dynamics::RigidBody;
 use crate::error::{Error, Result};
-use crate::geometry::{Outline, PrincipalAxes, Silhouette};
+use crate::geometry::{Outline, PrincipalAxes, Silhouette, bounds};
 use crate::loading::{
     Drag, Face, FaceHistory, HistorySettings, LoadingMode, Panel, Resistance, Wind, box_panels, flat_panels,
     mesh_panels,
@@ -201,9 +201,7 @@ impl Geometry {
     }
 
     fn bounds(&self) -> (DVec3, DVec3) {
-        self.world_corners
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
+        bounds(self.world_corners.iter().copied())
     }
 }
 

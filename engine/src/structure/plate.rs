@@ -17,7 +17,7 @@
 use glam::DVec2;
 
 use crate::error::{Error, Result, positive};
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, bounds};
 use crate::material::Material;
 
 /// Cells of the grid along the longer side of the pane.
@@ -146,9 +146,7 @@ fn greatest_moment([xx, yy, xy]: [f64; 3], poisson: f64) -> f64 {
 
 impl Grid {
     fn over(outline: &Polygon) -> Self {
-        let points = outline.points();
-        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let (low, high) = bounds(outline.points().iter().copied());
         let size = high - low;
         // A pane that is narrow and lies aslant takes finer cells.
         let width = 2.0 * outline.area() / outline.sides().map(|(a, b)| a.distance(b)).sum::<f64>();

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, StrictBool
+from pydantic import Field, StrictBool, model_validator
 
 from brisance.model.base import Count, Model, Name, NotNegative, Number, Positive
 
@@ -20,7 +20,8 @@ class Time(Model):
     longest: Positive = Field(
         default=30.0,
         le=1e9,
-        description='When a run with duration = "rest" ends at the latest [s], above 0 to 1e9; default 30.',
+        description='When a run with duration = "rest" ends at the latest [s], above 0 to 1e9; default 30. '
+        "Only beside that.",
     )
     frame_rate: Positive = Field(
         default=60.0,
@@ -31,8 +32,18 @@ class Time(Model):
     step: Positive | None = Field(
         default=None,
         description="Step of the integration [s], above 0; left out: chosen and reported. Smaller is slower "
-        "and follows tumbling more closely; the impulse a piece receives does not depend on it.",
+        "and follows tumbling more closely; the impulse a piece receives does not depend on it. With "
+        "contacts it counts while loads act.",
     )
+
+    @model_validator(mode="after")
+    def _longest_of_a_rest(self) -> Time:
+        if "longest" in self.model_fields_set and isinstance(self.duration, float):
+            raise ValueError(
+                f"has a longest of {self.longest:g} s beside a duration of {self.duration:g} s; take one of "
+                'them out: longest is for duration = "rest"'
+            )
+        return self
 
     @property
     def frames(self) -> int:

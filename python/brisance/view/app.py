@@ -92,8 +92,12 @@ class _View:
             raise HTTPException(404, f"There is no {kind!r} to save; choose {', '.join(KINDS)}.")
         asked = await _body(request)
         scene = self._folder.scene(asked.get("file"), asked.get("scene"))
-        job = Job()
-        run = asyncio.create_task(self._workers.run(job, lambda job: saved(scene, kind, job)))
+
+        def save(job: Job) -> bytes:
+            with self._folder.telling_of(asked.get("file")):
+                return saved(scene, kind, job)
+
+        run = asyncio.create_task(self._workers.run(Job(), save))
         try:
             while not (await asyncio.wait({run}, timeout=0.25))[0]:
                 if await request.is_disconnected():

@@ -78,8 +78,10 @@ class Conversation:
 
     def _recording(self, job: Job, request: dict[str, Any]) -> bytes:
         started = time.perf_counter()
-        scene = self._folder.scene(request.get("file"), request.get("scene"))
-        result = simulate(scene, progress=job.goes_on)
+        file = request.get("file")
+        scene = self._folder.scene(file, request.get("scene"))
+        with self._folder.telling_of(file):
+            result = simulate(scene, progress=job.goes_on)
         job.goes_on()
         known = request.get("have")
         simulated = time.perf_counter()

@@ -93,17 +93,24 @@ pub enum Passes {
     Nothing,
     /// It holds glass, and does not meet that.
     Glass,
-    /// It was held by frames, and does not meet those until it has left them.
+    /// It is glass that stays where it is, and does not meet what lies against it as it comes.
+    Neighbours,
+    /// It was held by frames, and does not meet those, nor glass that stays in them, until it has left them.
     Frames,
+    /// It lies against glass that stays, and does not meet such until it is clear of it.
+    Splinters,
 }
 
 impl Passes {
     fn filter(self) -> Filter {
         const FRAME: u64 = 2;
+        const SPLINTER: u64 = 4;
         let (category_bits, mask_bits) = match self {
             Self::Nothing => (1, u64::MAX),
             Self::Glass => (FRAME, u64::MAX),
-            Self::Frames => (1, !FRAME),
+            Self::Neighbours => (SPLINTER, u64::MAX),
+            Self::Frames => (1, !(FRAME | SPLINTER)),
+            Self::Splinters => (1, !SPLINTER),
         };
         Filter { category_bits, mask_bits, group_index: 0 }
     }
@@ -271,12 +278,20 @@ impl ContactWorld {
         }
     }
 
-    /// Lets a body meet everything from now on, whatever it passed before.
-    pub fn meet_all(&mut self, index: usize) {
-        self.bodies[index].passes = Passes::Nothing;
+    /// Puts a body that is not here where it is for good: it never moves, and meets what does not pass it as
+    /// [`Passes::Splinters`] says. Returns whether it is there, as [`join`](Self::join).
+    pub fn fix(&mut self, index: usize, state: &RigidBody) -> bool {
+        let body = &mut self.bodies[index];
+        (body.anchored, body.passes) = (true, Passes::Neighbours);
+        self.join(index, state, false)
+    }
+
+    /// Lets a body meet everything from now on but what it `passes`; what touches it wakes.
+    pub fn pass(&mut self, index: usize, passes: Passes) {
+        self.bodies[index].passes = passes;
         let Some(id) = self.ids[index] else { return };
         for shape in self.world.body_shapes(id).expect(SOUND) {
-            self.world.set_shape_filter(shape, Passes::Nothing.filter(), true).expect(SOUND);
+            self.world.set_shape_filter(shape, passes.filter(), true).expect(SOUND);
         }
     }
 

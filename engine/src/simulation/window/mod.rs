@@ -23,7 +23,7 @@ use crate::blast::BlastField;
 use crate::dynamics::{Bowing, Hold, Until};
 use crate::error::{Error, Result};
 use crate::fracture::{CrackClock, Fineness, Glass, Grown, Pieces, Recipe, outline};
-use crate::geometry::{Polygon, Sample};
+use crate::geometry::{Polygon, Sample, bounds};
 use crate::material::{self, mean_fragment_area};
 use crate::random;
 use crate::scene::{Body, Flat, Scene, Shape};
@@ -402,9 +402,7 @@ fn body(window: &Window, centre: DVec2, mass: f64, flat: Flat) -> Body {
 
 /// Panels of a whole pane in its own frame: the cells of a grid whose middle lies in it, with equal parts of its area.
 fn samples(outline: &Polygon) -> Vec<Sample> {
-    let points = outline.points();
-    let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (low, high) = bounds(outline.points().iter().copied());
     let size = high - low;
     let cell = size.max_element() / PANELS as f64;
     let count = (size / cell).round().max(DVec2::splat(2.0));

@@ -1,0 +1,42 @@
+//! The smallest box about points.
+
+use glam::{DVec2, DVec3};
+
+/// Points of the plane and of space: what [`bounds`] needs of both.
+pub trait Coordinates: Copy {
+    /// All coordinates infinite.
+    const INFINITY: Self;
+    /// All coordinates infinite and negative.
+    const NEG_INFINITY: Self;
+    /// The lower of each coordinate.
+    fn min(self, other: Self) -> Self;
+    /// The higher of each coordinate.
+    fn max(self, other: Self) -> Self;
+}
+
+/// Corners of the smallest box about points: the lowest and the highest of each coordinate.
+///
+/// For no points the first is infinite and the second infinite and negative: a box that holds and overlaps nothing.
+pub fn bounds<P: Coordinates>(points: impl IntoIterator<Item = P>) -> (P, P) {
+    let nothing = (P::INFINITY, P::NEG_INFINITY);
+    points.into_iter().fold(nothing, |(low, high), point| (low.min(point), high.max(point)))
+}
+
+macro_rules! coordinates {
+    ($($point:ty),*) => {$(
+        impl Coordinates for $point {
+            const INFINITY: Self = Self::INFINITY;
+            const NEG_INFINITY: Self = Self::NEG_INFINITY;
+
+            fn min(self, other: Self) -> Self {
+                Self::min(self, other)
+            }
+
+            fn max(self, other: Self) -> Self {
+                Self::max(self, other)
+            }
+        }
+    )*};
+}
+
+coordinates!(DVec2, DVec3);
