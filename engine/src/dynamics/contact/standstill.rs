@@ -9,9 +9,9 @@ use glam::{DQuat, DVec3};
 
 /// A body that stays within this of one place is still [m]. What falls asleep by its speed alone may go farther in that
 /// time.
-const ROOM: f64 = 2e-3;
+const ROOM: f64 = 3e-3;
 /// For how long it has to [s].
-const TIME: f64 = 0.25;
+const TIME: f64 = 0.35;
 
 /// Watches one body.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +75,7 @@ mod tests {
         // 0.3 m/s to and fro, within a millimetre.
         assert!(still(|t| (4e-4 * (750.0 * t).sin(), 0.0)));
         assert!(still(|t| (0.0, 4e-3 * (750.0 * t).sin())));
-        // Two millimetres in less than a quarter of a second.
+        // Three millimetres in less than a third of a second.
         assert!(!still(|t| (12e-3 * t, 0.0)));
         assert!(!still(|t| (0.0, 0.12 * t)));
         // Both together.
