@@ -61,15 +61,21 @@ const LARGEST: f64 = 1000.0;
 /// Fastest turn [rad/s]. Box3D turns the axes of a spinning body by one Newton step a sub-step. That loses energy as long
 /// as a body turns by no more than 0.2 rad in a sub-step, and gains some beyond.
 const FASTEST_TURN: f64 = 0.2 / SUBSTEP;
-/// Moments of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms their product, in single
-/// precision.
-const MOMENTS: (f64, f64) = (3e-11, 3e11);
-/// The same for masses.
-const MASSES: (f64, f64) = (1e-12, 1e15);
+/// Least moment of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms the product of all three, in
+/// single precision.
+const LEAST_MOMENT: f64 = 3e-11;
+/// Least mass in the same units.
+const LEAST_MASS: f64 = 1e-12;
 /// A body's smallest moment of inertia is at least this part of its largest.
 const SLENDER: f64 = 1e-4;
-/// About what the largest body's moment of inertia becomes in Box3D, out of that range.
+/// About what the largest body's moment of inertia becomes in Box3D where that body is a metre or larger.
 const LARGEST_MOMENT: f64 = 1e9;
+/// A body's largest moment of inertia may be this many times ρ^(4/3), with ρ its smallest radius of gyration [m].
+///
+/// Box3D turns a body by solving for three angular velocities at once, in single precision. The largest number that
+/// comes up is some (I h ω)³ ω, for a step h. Within a step a blow at the highest speed v turns a body by up to
+/// ω = v/ρ before anything limits it. With this, that number is 1e36, and 3e38 is infinite.
+const MOST_MOMENT: f64 = 9e9;
 /// Half the width of the ground, and its depth [m].
 const GROUND: (f32, f32) = (4000.0, 20.0);
 
@@ -185,8 +191,7 @@ impl ContactWorld {
         let ids = vec![None; bodies.len()];
         let largest = bodies.iter().filter(|body| !body.anchored).map(|body| body.shape.reach());
         let largest = largest.fold(0.0, f64::max).clamp(1e-4, LARGEST);
-        // As a ball of stone.
-        let gain = LARGEST_MOMENT / (4000.0 * libm::pow(largest, 5.0));
+        let gain = gain(largest);
         let standstills = vec![Standstill::new(DVec3::ZERO, DQuat::IDENTITY, 0.0); bodies.len()];
         Self {
             world,
@@ -250,7 +255,7 @@ impl ContactWorld {
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
         if !body.anchored {
-            self.world.set_body_mass_data(id, mass(state, self.gain)).expect(SOUND);
+            self.world.set_body_mass_data(id, mass(state, body.shape.reach(), self.gain)).expect(SOUND);
         }
         self.bearings[index] = Bearing::NONE;
         self.ids[index] = Some(id);
@@ -297,8 +302,8 @@ impl ContactWorld {
 
     /// Binds bodies that have joined.
     pub fn bind(&mut self, bonds: &[Bond]) {
-        let fixed = |index: usize| self.bodies[index].anchored;
-        self.bonds.add(&mut self.world, &self.ids, fixed, bonds, self.origin);
+        let bodies = &self.bodies;
+        self.bonds.add(&mut self.world, &self.ids, bodies, bonds, self.origin);
     }
 
     /// Bonds that hold still.
@@ -366,20 +371,36 @@ fn surface(foundation: &Foundation, friction: f64, passes: Passes) -> ShapeDef {
     surface.density(1.0).update_body_mass(false).filter(passes.filter()).build().expect(SOUND)
 }
 
-/// Mass and moments in Box3D's units.
-fn mass(state: &RigidBody, gain: f64) -> MassData {
+/// How many times ours Box3D's masses are where the largest body has this reach [m]. That body counts as a ball of stone.
+fn gain(largest: f64) -> f64 {
+    // Bodies that are all small turn faster, which leaves less room. By powers of two, which change no digit.
+    let halvings = (4.0 / 3.0 * -libm::log2(largest)).max(0.0);
+    LARGEST_MOMENT / (4000.0 * libm::pow(largest, 5.0)) * libm::exp2(-libm::ceil(halvings))
+}
+
+/// Mass and moments in Box3D's units, of a body that reaches this far [m]: true ones as long as they belong to a solid
+/// body and single precision holds them.
+fn mass(state: &RigidBody, reach: f64, gain: f64) -> MassData {
     let mass = 1.0 / state.inverse_mass;
-    // A body that may not turn has no moments; its rotation is locked.
-    let fallback = 0.4 * mass * state.reach * state.reach;
-    let (least, most) = MOMENTS;
-    let moment = |inverse: f64| gain * if inverse > 0.0 { 1.0 / inverse } else { fallback };
-    let moments = DVec3::from_array(state.inverse_moments.to_array().map(moment));
+    let reach = reach.max(hull::THINNEST);
+    // Squares of the radii of gyration, of no less than the thinnest cube and no more than what is all at the rim. A
+    // body that may not turn has none; its rotation is locked.
+    let square = |inverse: f64| if inverse > 0.0 { 1.0 / (inverse * mass) } else { 0.4 * reach * reach };
+    let (thinnest, rim) = (2.0 / 3.0 * hull::THINNEST * hull::THINNEST, 4.0 * reach * reach);
+    let squares = state.inverse_moments.to_array().map(|inverse| square(inverse).clamp(thinnest, rim));
+    let squares = DVec3::from_array(squares);
     // A needle that turns about itself must not make the others' turn overflow.
-    let slender = (SLENDER * moments.max_element()).clamp(least, most);
-    let [x, y, z] = moments.to_array().map(|moment| moment.clamp(slender, most) as f32);
-    let inertia =
-        Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
-    MassData { mass: (gain * mass).clamp(MASSES.0, MASSES.1) as f32, center: Vec3::ZERO, inertia }
+    let squares = squares.max(DVec3::splat(SLENDER * squares.max_element()));
+    let most = MOST_MOMENT * libm::pow(squares.min_element(), 2.0 / 3.0);
+    let mass = (gain * mass).clamp(LEAST_MASS, most / squares.max_element());
+    let moments = mass * squares;
+    let moments = moments.max(DVec3::splat(LEAST_MOMENT.max(SLENDER * moments.max_element())));
+    let inertia = Matrix3 {
+        cx: single(DVec3::X * moments.x),
+        cy: single(DVec3::Y * moments.y),
+        cz: single(DVec3::Z * moments.z),
+    };
+    MassData { mass: mass as f32, center: Vec3::ZERO, inertia }
 }
 
 /// A body's velocity as Box3D may have it [m/s].

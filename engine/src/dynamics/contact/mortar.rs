@@ -14,7 +14,7 @@
 use boxddd::{BodyId, JointId, Transform, WeldJointDef, World};
 use glam::{DQuat, DVec3};
 
-use super::{SOUND, double, quaternion, single};
+use super::{ContactBody, SOUND, double, quaternion, single};
 
 /// What pressure on a joint adds to its shear strength.
 const INTERNAL_FRICTION: f64 = 0.4;
@@ -111,19 +111,28 @@ impl Bonds {
         self.held.len()
     }
 
-    /// Binds bodies that are there. `fixed` says which of them never move: Box3D wants such a one first.
+    /// Binds bodies that are there, where the joint is at both of them. On a long lever a light body comes to turn ever
+    /// faster, until its velocity is no number.
     pub fn add(
         &mut self,
         world: &mut World,
         ids: &[Option<BodyId>],
-        fixed: impl Fn(usize) -> bool,
+        bodies: &[ContactBody],
         bonds: &[Bond],
         origin: DVec3,
     ) {
         for bond in bonds {
             let [one, other] = bond.bodies;
             let (Some(a), Some(b)) = (ids[one], ids[other]) else { continue };
-            let (first, second, sign) = match (fixed(one), fixed(other)) {
+            let at_both = [(one, a), (other, b)].into_iter().all(|(index, id)| {
+                let lever = (bond.middle - origin).distance(place(world, id).0);
+                lever <= bodies[index].shape.reach() + bond.mortar.gap + NEAR
+            });
+            if !at_both {
+                continue;
+            }
+            // Box3D wants a body that never moves first.
+            let (first, second, sign) = match (bodies[one].anchored, bodies[other].anchored) {
                 (true, true) => continue,
                 (false, true) => (b, a, -1.0),
                 _ => (a, b, 1.0),
