@@ -22,17 +22,16 @@ const FAST: f64 = 0.6;
 /// Time between two looks at a body's contacts [s]; a contact gives way within a few hundredths of a second.
 const PERIOD: f64 = 0.02;
 /// The largest mass, in its own [1].
-const MOST: f32 = 4096.0;
-/// Box3D multiplies the three moments of a body, in single precision [in its units].
-const LARGEST_MOMENT: f32 = 1e12;
+const MOST: f64 = 4096.0;
 /// By so much two bodies that have locked are moved apart at each look [m].
 const PART: f64 = 1e-3;
 
 /// How much more mass a body has than its own, and when its contacts are looked at next.
 #[derive(Debug, Clone, Copy)]
 pub struct Bearing {
-    /// Times its own mass [1].
+    /// Times its own mass, and how much that may be [1].
     factor: f32,
+    most: f32,
     /// Time until the next look [s].
     wait: f64,
 }
@@ -49,14 +48,16 @@ enum Grip {
 }
 
 impl Bearing {
-    /// A body with its own mass.
-    pub const NONE: Self = Self { factor: 1.0, wait: PERIOD };
+    /// A body with its own mass, of which Box3D can hold so many times.
+    pub fn up_to(most: f64) -> Self {
+        Self { factor: 1.0, most: most.min(MOST) as f32, wait: PERIOD }
+    }
 
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
     pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
         if speed > FAST && self.factor > 1.0 {
             gain_mass(world, id, 1.0 / self.factor);
-            *self = Self::NONE;
+            self.factor = 1.0;
         }
         if !self.is_due(speed, dt) {
             return;
@@ -64,7 +65,8 @@ impl Bearing {
         match grip(world, id) {
             Grip::None => {}
             Grip::Pressed => {
-                if self.factor < MOST && gain_mass(world, id, 2.0) {
+                if 2.0 * self.factor <= self.most {
+                    gain_mass(world, id, 2.0);
                     self.factor *= 2.0;
                 }
             }
@@ -88,17 +90,13 @@ impl Bearing {
 }
 
 /// Multiplies a body's mass and moments by a power of two, which changes no digit, so that it can get back the very mass
-/// it had. Returns whether it did: Box3D could not invert larger moments.
-fn gain_mass(world: &mut World, id: BodyId, times: f32) -> bool {
+/// it had.
+fn gain_mass(world: &mut World, id: BodyId, times: f32) {
     let MassData { mass, center, inertia } = world.body_mass_data(id).expect(SOUND);
     let [x, y, z] = [inertia.cx.x, inertia.cy.y, inertia.cz.z].map(|moment| times * moment);
-    if x.max(y).max(z) > LARGEST_MOMENT {
-        return false;
-    }
     let inertia =
         Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
     world.set_body_mass_data(id, MassData { mass: times * mass, center, inertia }).expect(SOUND);
-    true
 }
 
 fn grip(world: &World, id: BodyId) -> Grip {

@@ -198,7 +198,7 @@ impl ContactWorld {
             ids,
             index: HashMap::new(),
             standstills,
-            bearings: vec![Bearing::NONE; bodies.len()],
+            bearings: vec![Bearing::up_to(1.0); bodies.len()],
             bodies,
             gain,
             bonds: Bonds::new(gain),
@@ -255,9 +255,10 @@ impl ContactWorld {
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
         if !body.anchored {
-            self.world.set_body_mass_data(id, mass(state, body.shape.reach(), self.gain)).expect(SOUND);
+            let (mass, room) = mass(state, body.shape.reach(), self.gain);
+            self.world.set_body_mass_data(id, mass).expect(SOUND);
+            self.bearings[index] = Bearing::up_to(room);
         }
-        self.bearings[index] = Bearing::NONE;
         self.ids[index] = Some(id);
         self.index.insert(id, index);
         self.standstills[index] = Standstill::new(state.position, state.world_from_principal, state.reach);
@@ -379,8 +380,8 @@ fn gain(largest: f64) -> f64 {
 }
 
 /// Mass and moments in Box3D's units, of a body that reaches this far [m]: true ones as long as they belong to a solid
-/// body and single precision holds them.
-fn mass(state: &RigidBody, reach: f64, gain: f64) -> MassData {
+/// body and single precision holds them. And how many times as much it could hold.
+fn mass(state: &RigidBody, reach: f64, gain: f64) -> (MassData, f64) {
     let mass = 1.0 / state.inverse_mass;
     let reach = reach.max(hull::THINNEST);
     // Squares of the radii of gyration, of no less than the thinnest cube and no more than what is all at the rim. A
@@ -392,7 +393,8 @@ fn mass(state: &RigidBody, reach: f64, gain: f64) -> MassData {
     // A needle that turns about itself must not make the others' turn overflow.
     let squares = squares.max(DVec3::splat(SLENDER * squares.max_element()));
     let most = MOST_MOMENT * libm::pow(squares.min_element(), 2.0 / 3.0);
-    let mass = (gain * mass).clamp(LEAST_MASS, most / squares.max_element());
+    let most = most / squares.max_element();
+    let mass = (gain * mass).clamp(LEAST_MASS, most);
     let moments = mass * squares;
     let moments = moments.max(DVec3::splat(LEAST_MOMENT.max(SLENDER * moments.max_element())));
     let inertia = Matrix3 {
@@ -400,7 +402,7 @@ fn mass(state: &RigidBody, reach: f64, gain: f64) -> MassData {
         cy: single(DVec3::Y * moments.y),
         cz: single(DVec3::Z * moments.z),
     };
-    MassData { mass: mass as f32, center: Vec3::ZERO, inertia }
+    (MassData { mass: mass as f32, center: Vec3::ZERO, inertia }, most / mass)
 }
 
 /// A body's velocity as Box3D may have it [m/s].
