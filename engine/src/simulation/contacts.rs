@@ -151,7 +151,9 @@ impl Motion for Contacts {
                 _ => self.push(state, index, t0, t1)?,
             }
         }
-        self.move_together(&mut state.bodies, t0, t1);
+        if let Some(lost) = self.move_together(&mut state.bodies, t0, t1) {
+            return Err(state.overflow(lost, "its motion among others", t1));
+        }
         for index in freed {
             state.phases[index] = Phase::Free;
             state.lives[index].change = None;
@@ -216,12 +218,16 @@ impl Contacts {
         Ok(())
     }
 
-    /// Moves all bodies that are awake and takes over where they are.
-    fn move_together(&mut self, bodies: &mut Bodies, t0: f64, t1: f64) {
+    /// Moves all bodies that are awake and takes over where they are. Returns one whose motion could not be solved.
+    fn move_together(&mut self, bodies: &mut Bodies, t0: f64, t1: f64) -> Option<usize> {
         let tracks = &mut self.tracks;
+        let mut lost = None;
         let (mut fastest, mut strays) = (0.0_f64, Vec::new());
         self.world.step(t1 - t0, |moved, position, rotation, velocity, spin| {
             let (index, track) = (moved.index, &mut tracks[moved.index]);
+            if ![position, velocity, spin].iter().all(|v| v.is_finite()) {
+                lost = lost.or(Some(index));
+            }
             let mut body = bodies.get(index);
             body.position = position;
             body.world_from_principal = rotation;
@@ -245,6 +251,7 @@ impl Contacts {
             self.world.leave(index);
             self.tracks[index].far = true;
         }
+        lost
     }
 
     /// Notes what a step has made of a body.

@@ -4,12 +4,15 @@
 //! that nearly lie in a plane. So points are stretched to a cube and snapped to a grid, where whole numbers tell exactly
 //! whether four points lie in a plane; the grid is made coarser until no point lies off a face of the hull by so little
 //! that rounding could hide it. The hull is built there and scaled back.
+//!
+//! The cube's edges are the axes of the body, or those of the points where these lie slantwise. In a slanting cube a thin
+//! plate would have faces on both sides that meet at almost no angle, and then Box3D finds it apart from what it is in.
 
 use boxddd::{Hull, Transform, Vec3};
-use glam::DVec3;
+use glam::{DMat3, DQuat, DVec3};
 
-use super::foundation;
 use super::shape::bounds;
+use super::{foundation, quaternion, single};
 
 /// Half the edge of the cube in which hulls are built, in Box3D's units of length. Box3D scales shapes by no less than
 /// 0.01, so that bodies of a tenth of a millimetre come out right.
@@ -21,17 +24,19 @@ const GRIDS: [i32; 6] = [2048, 1024, 512, 256, 64, 16];
 const DOUBT: f64 = 2e-5;
 /// Points that reach less far from a plane are as good as flat [half the cube].
 const FLAT: f64 = 0.02;
+/// Points lie slantwise where a box along their own axes has less than this part of the volume of the one about them.
+const SLANT: f64 = 0.5;
 /// Most corners of a hull; Box3D holds 128 edges.
 pub const MOST_POINTS: usize = 42;
 
 /// Half the thickness below which a body counts as one of that thickness [m]; contacts miss what is much thinner.
 pub const THINNEST: f64 = 2.5e-4;
 
-/// A hull in the cube, and how it comes to its place: scaled, then moved.
+/// A hull in the cube, and how it comes to its place: scaled, then turned and moved.
 pub struct PlacedHull {
     /// The hull in the cube.
     pub hull: Hull,
-    /// Where the cube's middle lies [m].
+    /// Where the cube's middle lies [m], and how the cube is turned.
     pub place: Transform,
     /// By how much each axis is scaled.
     pub scale: Vec3,
@@ -41,14 +46,21 @@ pub struct PlacedHull {
 
 /// The hull of points [m]; `None` where they lie in a plane, or nearly, or are not numbers.
 pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
-    let (low, high) = bounds(points);
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     // `min` and `max` pass over what is not a number.
-    if !points.iter().all(|p| p.is_finite()) || half.min_element() < 0.04 * THINNEST {
+    if !points.iter().all(|p| p.is_finite()) {
+        return None;
+    }
+    let axes = slant(points);
+    let points = along(axes.unwrap_or(DMat3::IDENTITY), points);
+    let (low, high) = bounds(&points);
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    // Turned in single precision, what is thinner than some part of its extent is crumpled.
+    let crumpled = THINNEST.max(1e-5 * low.abs().max(high.abs()).length());
+    if half.min_element() < if axes.is_some() { crumpled } else { 0.04 * THINNEST } {
         return None;
     }
     let (chosen, grid) = GRIDS.into_iter().find_map(|grid| {
-        let chosen = snapped(points, middle, half, grid);
+        let chosen = snapped(&points, middle, half, grid);
         (grid == GRIDS[GRIDS.len() - 1] || !in_doubt(&chosen, grid)).then_some((chosen, grid))
     })?;
     let to_cube = |c: i32| (f64::from(c) * CUBE / f64::from(grid)) as f32;
@@ -66,10 +78,41 @@ pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
         return None;
     }
     let volume = part * 8.0 * half.x * half.y * half.z;
-    let place =
-        Transform::new(Vec3::new(middle.x as f32, middle.y as f32, middle.z as f32), boxddd::Quat::IDENTITY);
-    let scale = Vec3::new(scale.x as f32, scale.y as f32, scale.z as f32);
+    let turn = axes.map_or(DQuat::IDENTITY, |axes| DQuat::from_mat3(&axes));
+    let place = Transform::new(single(turn * middle), quaternion(turn));
+    let scale = single(scale);
+    // Single precision may leave nothing of what is small and far from the centre of mass.
+    hull.clone_transformed(place, scale).ok()?;
     Some(PlacedHull { hull, place, scale, volume })
+}
+
+/// The own axes of points [m] that lie slantwise.
+fn slant(points: &[DVec3]) -> Option<DMat3> {
+    let volume = |points: &[DVec3]| {
+        let (low, high) = bounds(points);
+        (high - low).element_product()
+    };
+    own_axes(points).filter(|&axes| volume(&along(axes, points)) < SLANT * volume(points))
+}
+
+/// Points as they are along some axes.
+fn along(axes: DMat3, points: &[DVec3]) -> Vec<DVec3> {
+    let inverse = axes.transpose();
+    points.iter().map(|&p| inverse * p).collect()
+}
+
+/// The axes of points: from end to end of them, and across the plane through the ends and the point farthest from both.
+/// `None` where they lie on a line.
+fn own_axes(points: &[DVec3]) -> Option<DMat3> {
+    let farthest =
+        |far: &dyn Fn(DVec3) -> f64| points.iter().copied().max_by(|&a, &b| far(a).total_cmp(&far(b)));
+    let &any = points.first()?;
+    let a = farthest(&|p| p.distance_squared(any))?;
+    let b = farthest(&|p| p.distance_squared(a))?;
+    let x = (b - a).try_normalize()?;
+    let c = farthest(&|p| (p - a).cross(x).length_squared())?;
+    let z = x.cross(c - a).try_normalize()?;
+    Some(DMat3::from_cols(x, z.cross(x), z))
 }
 
 /// Points on a grid, each once and at most [`MOST_POINTS`] of them.
@@ -150,4 +193,45 @@ fn outermost(points: &[[i32; 3]]) -> Vec<[i32; 3]> {
         }
     }
     chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The corners of a box with these half edges, turned.
+    fn corners(half: DVec3, turn: DQuat) -> Vec<DVec3> {
+        let corner = |code: usize| {
+            let sign = |bit: usize| if code >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            turn * (half * DVec3::new(sign(0), sign(1), sign(2)))
+        };
+        (0..8).map(corner).collect()
+    }
+
+    /// A thin plate has its own volume, not that of the box about it, however it lies; so has a needle.
+    #[test]
+    fn what_lies_slantwise_keeps_its_shape() {
+        for half in [DVec3::new(0.3, 0.2, 0.003), DVec3::new(0.003, 0.4, 0.004), DVec3::new(0.1, 0.2, 0.15)] {
+            for turn in [
+                DQuat::IDENTITY,
+                DQuat::from_rotation_x(0.7),
+                DQuat::from_euler(glam::EulerRot::XYZ, 0.5, 1.0, 2.0),
+            ] {
+                let hull = hull_of(&corners(half, turn)).unwrap();
+                let volume = 8.0 * half.element_product();
+                // The coarsest grid has sixteen steps to half the extent.
+                assert!((hull.volume / volume - 1.0).abs() < 0.13, "{half} {turn}: {} {volume}", hull.volume);
+            }
+        }
+    }
+
+    /// Half a millimetre a kilometre from the centre of mass is nothing in single precision.
+    #[test]
+    fn what_single_precision_cannot_hold_has_no_hull() {
+        let far = DVec3::new(700.0, 600.0, 500.0);
+        let turn = DQuat::from_rotation_x(0.7);
+        let plate: Vec<DVec3> =
+            corners(DVec3::new(0.3, 0.2, 3e-4), turn).into_iter().map(|p| p + far).collect();
+        assert!(hull_of(&plate).is_none());
+    }
 }

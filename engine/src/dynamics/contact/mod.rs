@@ -61,9 +61,9 @@ const LARGEST: f64 = 1000.0;
 /// Fastest turn [rad/s]. Box3D turns the axes of a spinning body by one Newton step a sub-step. That loses energy as long
 /// as a body turns by no more than 0.2 rad in a sub-step, and gains some beyond.
 const FASTEST_TURN: f64 = 0.2 / SUBSTEP;
-/// Least moment of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms the product of all three, in
-/// single precision.
-const LEAST_MOMENT: f64 = 3e-11;
+/// Moments of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms their product, in single
+/// precision.
+const MOMENTS: (f64, f64) = (3e-11, 3e11);
 /// Least mass in the same units.
 const LEAST_MASS: f64 = 1e-12;
 /// A body's smallest moment of inertia is at least this part of its largest.
@@ -333,7 +333,8 @@ impl ContactWorld {
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
-    /// whether it rests, its position [m], rotation, velocity [m/s] and angular velocity [rad/s].
+    /// whether it rests, its position [m], rotation, velocity [m/s] and angular velocity [rad/s]. Where one of these is not
+    /// finite, Box3D could not solve the step, and this world must not be stepped again.
     pub fn step(&mut self, dt: f64, mut update: impl FnMut(Moved, DVec3, DQuat, DVec3, DVec3)) {
         let substeps = libm::ceil(dt / SUBSTEP - 1e-9).max(1.0) as i32;
         self.world.step(dt as f32, substeps).expect(SOUND);
@@ -355,7 +356,7 @@ impl ContactWorld {
             }
             let velocity = double(self.world.body_linear_velocity(event.body_id).expect(SOUND));
             let mut spin = double(self.world.body_angular_velocity(event.body_id).expect(SOUND));
-            if spin.length_squared() > FASTEST_TURN * FASTEST_TURN {
+            if spin.is_finite() && spin.length_squared() > FASTEST_TURN * FASTEST_TURN {
                 spin = spin.clamp_length_max(FASTEST_TURN);
                 self.world.set_body_angular_velocity(event.body_id, single(spin)).expect(SOUND);
             }
@@ -392,11 +393,11 @@ fn mass(state: &RigidBody, reach: f64, gain: f64) -> (MassData, f64) {
     let squares = DVec3::from_array(squares);
     // A needle that turns about itself must not make the others' turn overflow.
     let squares = squares.max(DVec3::splat(SLENDER * squares.max_element()));
-    let most = MOST_MOMENT * libm::pow(squares.min_element(), 2.0 / 3.0);
+    let most = (MOST_MOMENT * libm::pow(squares.min_element(), 2.0 / 3.0)).min(MOMENTS.1);
     let most = most / squares.max_element();
     let mass = (gain * mass).clamp(LEAST_MASS, most);
     let moments = mass * squares;
-    let moments = moments.max(DVec3::splat(LEAST_MOMENT.max(SLENDER * moments.max_element())));
+    let moments = moments.max(DVec3::splat(MOMENTS.0.max(SLENDER * moments.max_element())));
     let inertia = Matrix3 {
         cx: single(DVec3::X * moments.x),
         cy: single(DVec3::Y * moments.y),
@@ -425,4 +426,83 @@ fn double(v: Vec3) -> DVec3 {
 
 fn quaternion(q: DQuat) -> Quat {
     Quat { v: Vec3::new(q.x as f32, q.y as f32, q.z as f32), s: q.w as f32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loading::Resistance;
+
+    /// Largest number that comes up as Box3D turns a body that was struck at the highest speed: (I h ω)³ ω, with ω such
+    /// that the part of the body at its radius of gyration has that speed.
+    fn largest_number(data: &MassData) -> f64 {
+        let moments = [data.inertia.cx.x, data.inertia.cy.y, data.inertia.cz.z].map(f64::from);
+        let (least, most) =
+            moments.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &moment| (a.min(moment), b.max(moment)));
+        let turn = f64::from(FASTEST) * (f64::from(data.mass) / least).sqrt();
+        (most * SUBSTEP * turn).powi(3) * turn
+    }
+
+    /// Whatever mass and moments a body has beside whatever else, single precision holds them and what comes of them.
+    #[test]
+    fn no_mass_and_no_moments_overflow() {
+        let sizes = [1e-6, 1e-3, 0.1, 10.0, 1e3];
+        let masses = [1e-12, 1e-6, 1.0, 1e9];
+        let moments = [0.0, 1e-30, 1e-18, 1e-6, 1.0, 1e12, f64::INFINITY, f64::NAN];
+        for (&largest, &reach) in sizes.iter().flat_map(|a| sizes.iter().map(move |b| (a, b))) {
+            for (&mass_, &moment) in masses.iter().flat_map(|a| moments.iter().map(move |b| (a, b))) {
+                let fitting = 0.4 * mass_ * reach * reach;
+                let state = RigidBody {
+                    position: DVec3::ZERO,
+                    world_from_principal: DQuat::IDENTITY,
+                    velocity: DVec3::ZERO,
+                    angular_momentum: DVec3::ZERO,
+                    inverse_mass: 1.0 / mass_,
+                    inverse_moments: DVec3::new(moment, fitting, moment).recip(),
+                    resistance: Resistance::new(DVec3::ONE, 1.0, None, mass_),
+                    reach,
+                };
+                let (data, room) = mass(&state, reach, gain(largest.max(1e-4)));
+                let [x, y, z] = [data.inertia.cx.x, data.inertia.cy.y, data.inertia.cz.z];
+                // Box3D takes a product below this for none.
+                assert!(x * y * z > 1000.0 * f32::MIN_POSITIVE && (x * y * z).is_finite(), "{data:?}");
+                assert!(data.mass > 0.0 && data.mass.is_finite() && room >= 1.0, "{data:?}, {room}");
+                assert!(largest_number(&data) < 1e37, "{largest} {reach} {data:?}");
+            }
+        }
+    }
+
+    /// A brick, a pane's piece and a splinter beside a wall have the masses and moments they have.
+    #[test]
+    fn usual_bodies_have_their_own_masses_and_moments() {
+        for (edges, density, largest) in [
+            (DVec3::new(0.25, 0.065, 0.12), 1800.0, 0.15),
+            (DVec3::new(0.3, 0.2, 0.004), 2500.0, 1.0),
+            (DVec3::new(0.002, 0.003, 0.003), 2500.0, 0.7),
+            (DVec3::new(1.0, 0.05, 0.05), 7850.0, 0.6),
+        ] {
+            let mass_ = density * edges.element_product();
+            let square = edges * edges;
+            let squares = (DVec3::splat(square.element_sum()) - square) / 12.0;
+            let reach = 0.5 * edges.length();
+            let state = RigidBody {
+                position: DVec3::ZERO,
+                world_from_principal: DQuat::IDENTITY,
+                velocity: DVec3::ZERO,
+                angular_momentum: DVec3::ZERO,
+                inverse_mass: 1.0 / mass_,
+                inverse_moments: (mass_ * squares).recip(),
+                resistance: Resistance::new(DVec3::ONE, 1.0, None, mass_),
+                reach,
+            };
+            let gain = gain(largest);
+            let (data, _) = mass(&state, reach, gain);
+            let same = |a: f32, b: f64| (f64::from(a) / b - 1.0).abs() < 1e-6;
+            assert!(same(data.mass, gain * mass_), "{edges}: {data:?}");
+            let moments = gain * mass_ * squares;
+            assert!(same(data.inertia.cx.x, moments.x), "{edges}: {data:?} {moments}");
+            assert!(same(data.inertia.cy.y, moments.y), "{edges}: {data:?} {moments}");
+            assert!(same(data.inertia.cz.z, moments.z), "{edges}: {data:?} {moments}");
+        }
+    }
 }
