@@ -220,7 +220,7 @@ pub fn run(seed: u64) -> Fate {
                     here[index] = false;
                 }
                 0 | 1 if !here[index] => here[index] = world.join(index, &states[index], draws.chance(0.8)),
-                2 => world.meet_all(index),
+                2 => world.pass(index, Passes::Nothing),
                 _ => {
                     let velocity = direction(&mut draws) * odd(&mut draws, fastest);
                     let kick = direction(&mut draws) * odd(&mut draws, fastest);

@@ -15,8 +15,10 @@ use super::{SOUND, double, single};
 
 /// How deep a body may be in another before something is done about it [m].
 const DEPTH: f64 = 1e-3;
-/// A body slower than this may lie under another [m/s].
+/// A body slower than this for so long lies on something [m/s, s]: what falls is faster. Pieces that are let go overlap a
+/// little, and come apart by themselves.
 const SLOW: f64 = 0.3;
+const DELAY: f64 = 0.2;
 /// One faster than this has its own mass [m/s].
 const FAST: f64 = 0.6;
 /// Time between two looks at a body's contacts [s]; a contact gives way within a few hundredths of a second.
@@ -34,6 +36,8 @@ pub struct Bearing {
     most: f32,
     /// Time until the next look [s].
     wait: f64,
+    /// Whether it had locked at the last look. It must not sleep then: it has no speed, since it is shifted.
+    locked: bool,
 }
 
 /// What holds a body that is deep in others.
@@ -50,7 +54,7 @@ enum Grip {
 impl Bearing {
     /// A body with its own mass, of which Box3D can hold so many times.
     pub fn up_to(most: f64) -> Self {
-        Self { factor: 1.0, most: most.min(MOST) as f32, wait: PERIOD }
+        Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false }
     }
 
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
@@ -62,7 +66,13 @@ impl Bearing {
         if !self.is_due(speed, dt) {
             return;
         }
-        match grip(world, id) {
+        let grip = grip(world, id);
+        let locked = matches!(grip, Grip::Locked(_));
+        if locked != self.locked {
+            world.enable_body_sleep(id, !locked).expect(SOUND);
+            self.locked = locked;
+        }
+        match grip {
             Grip::None => {}
             Grip::Pressed => {
                 if 2.0 * self.factor <= self.most {
@@ -80,8 +90,8 @@ impl Bearing {
 
     /// Whether it is time to look at the contacts of a body that hardly moves.
     fn is_due(&mut self, speed: f64, dt: f64) -> bool {
-        self.wait -= dt;
-        let due = self.wait <= 0.0 && speed <= SLOW;
+        self.wait = if speed > SLOW { DELAY } else { self.wait - dt };
+        let due = self.wait <= 0.0;
         if due {
             self.wait = PERIOD;
         }
