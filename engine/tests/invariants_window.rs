@@ -5,11 +5,12 @@ mod glazed;
 use brisance_engine::dynamics::{Bowing, Hold, Swing, Until};
 use brisance_engine::fracture::Glass;
 use brisance_engine::loading::LoadingMode;
-use brisance_engine::simulation::Fate;
+use brisance_engine::simulation::{Fate, Panes, Shelters};
 use brisance_engine::window::Release;
 use glam::{DQuat, DVec3};
 use glazed::{run, scene, wall, window};
 use proptest::prelude::*;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 fn glass() -> impl Strategy<Value = Glass> {
@@ -61,6 +62,9 @@ proptest! {
             block.anchored = true;
             scene.bodies.push(block);
         }
+        // Dice of a narrow pane come in rows: not every number of them can be had.
+        let grown = Panes::find(&scene, &mut Shelters::find(&scene).unwrap(), usize::MAX, &mut || ControlFlow::Continue(()));
+        prop_assume!(!grown.is_err_and(|error| error.to_string().contains("cannot be had with these cracks")));
         let (panes, recording) = run(&scene);
         let pane = &panes.panes[0];
         let whole = width * height * thickness * 2500.0;
