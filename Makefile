@@ -56,8 +56,8 @@ demo: setup viewer
 	@echo "Read the numbers:  $(OUT)/window.json"
 	@echo "Turn the knobs:    $(BIN)/brisance view scenes/window.toml"
 
+# The same random cases on every run; BRISANCE_CASES and a seed of one's own draw others.
 test: setup viewer chromium
-	# The same random cases on every run; BRISANCE_CASES and a seed of one's own draw others.
 	PROPTEST_RNG_SEED=1 cargo test --release --quiet --package brisance-engine
 	$(BIN)/pytest python/tests
 	CHROMIUM=$(CHROMIUM) node --test --test-concurrency=1 viewer/test/view.test.mjs viewer/test/page.test.mjs
