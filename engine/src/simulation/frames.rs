@@ -81,7 +81,7 @@ impl Frames {
             let settled = life.is_settled(now);
             if settled {
                 let body = state.bodies.get(index);
-                if world.fix(index, &body) {
+                if world.anchor(index, &body) {
                     splinters.push(Solid::new(&body, own, world_bounds(&body, &life.corners)));
                 }
             }

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::hull::hull_of;
-use crate::geometry::TriangleMesh;
+use crate::geometry::{TriangleMesh, bounds};
 
 /// Hulls may together have this many times the volume of the mesh.
 const ENOUGH: f64 = 1.05;
@@ -31,10 +31,7 @@ struct Cell {
 
 /// A mesh of this volume [m³] as the corners of convex hulls [m].
 pub fn mesh_hulls(mesh: &TriangleMesh, volume: f64) -> Vec<Vec<DVec3>> {
-    let (low, high) = mesh
-        .vertices
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+    let (low, high) = bounds(mesh.vertices.iter().copied());
     let whole = Cell {
         low,
         high,

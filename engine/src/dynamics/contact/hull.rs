@@ -11,8 +11,8 @@
 use boxddd::{Hull, Transform, Vec3};
 use glam::{DMat3, DQuat, DVec3};
 
-use super::shape::bounds;
 use super::{foundation, quaternion, single};
+use crate::geometry::bounds;
 
 /// Half the edge of the cube in which hulls are built, in Box3D's units of length. Box3D scales shapes by no less than
 /// 0.01, so that bodies of a tenth of a millimetre come out right.
@@ -52,7 +52,7 @@ pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
     }
     let axes = slant(points);
     let points = along(axes.unwrap_or(DMat3::IDENTITY), points);
-    let (low, high) = bounds(&points);
+    let (low, high) = bounds(points.iter().copied());
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     // Turned in single precision, what is thinner than some part of its extent is crumpled.
     let crumpled = THINNEST.max(1e-5 * low.abs().max(high.abs()).length());
@@ -89,7 +89,7 @@ pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
 /// The own axes of points [m] that lie slantwise.
 fn slant(points: &[DVec3]) -> Option<DMat3> {
     let volume = |points: &[DVec3]| {
-        let (low, high) = bounds(points);
+        let (low, high) = bounds(points.iter().copied());
         (high - low).element_product()
     };
     own_axes(points).filter(|&axes| volume(&along(axes, points)) < SLANT * volume(points))

@@ -9,9 +9,10 @@
 //! (`docs/decisions/0001-contacts.md`). So the bits are the same for any number of threads, and Box3D avoids the platform's
 //! mathematics library and fused operations.
 
-mod bearing;
 mod cells;
+mod depenetration;
 mod hull;
+mod mass;
 mod mortar;
 mod shape;
 mod standstill;
@@ -19,14 +20,15 @@ mod standstill;
 use std::collections::HashMap;
 
 use boxddd::{
-    BodyId, BodyMoveEvent, BodyType, BoxHull, Filter, Foundation, FoundationConfig, MassData, Matrix3,
-    MotionLocks, Quat, ShapeDef, StallThreshold, Vec3, World,
+    BodyId, BodyMoveEvent, BodyType, BoxHull, Filter, Foundation, FoundationConfig, MotionLocks, Quat,
+    ShapeDef, StallThreshold, Vec3, World, WorldTransform,
 };
 use glam::{DQuat, DVec3};
 
 use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
 use super::{GRAVITY, RigidBody};
-use bearing::Bearing;
+use depenetration::Depenetration;
+use mass::{gain, mass_data};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
 pub use shape::CollisionShape;
@@ -61,21 +63,6 @@ const LARGEST: f64 = 1000.0;
 /// Fastest turn [rad/s]. Box3D turns the axes of a spinning body by one Newton step a sub-step. That loses energy as long
 /// as a body turns by no more than 0.2 rad in a sub-step, and gains some beyond.
 const FASTEST_TURN: f64 = 0.2 / SUBSTEP;
-/// Moments of inertia that Box3D can invert [in units of `ContactWorld::gain`]: it forms their product, in single
-/// precision.
-const MOMENTS: (f64, f64) = (3e-11, 3e11);
-/// Least mass in the same units.
-const LEAST_MASS: f64 = 1e-12;
-/// A body's smallest moment of inertia is at least this part of its largest.
-const SLENDER: f64 = 1e-4;
-/// About what the largest body's moment of inertia becomes in Box3D where that body is a metre or larger.
-const LARGEST_MOMENT: f64 = 1e9;
-/// A body's largest moment of inertia may be this many times ρ^(4/3), with ρ its smallest radius of gyration [m].
-///
-/// Box3D turns a body by solving for three angular velocities at once, in single precision. The largest number that
-/// comes up is some (I h ω)³ ω, for a step h. Within a step a blow at the highest speed v turns a body by up to
-/// ω = v/ρ before anything limits it. With this, that number is 1e36, and 3e38 is infinite.
-const MOST_MOMENT: f64 = 9e9;
 /// Half the width of the ground, and its depth [m].
 const GROUND: (f32, f32) = (4000.0, 20.0);
 
@@ -140,7 +127,7 @@ pub struct ContactWorld {
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
     standstills: Vec<Standstill>,
-    bearings: Vec<Bearing>,
+    depenetrations: Vec<Depenetration>,
     /// Box3D's masses are this many times ours. Only their ratios matter to motion, and the moments of a splinter of
     /// glass are so small that their product is nothing in single precision: it would turn forever.
     gain: f64,
@@ -198,7 +185,7 @@ impl ContactWorld {
             ids,
             index: HashMap::new(),
             standstills,
-            bearings: vec![Bearing::up_to(1.0); bodies.len()],
+            depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
             bodies,
             gain,
             bonds: Bonds::new(gain),
@@ -255,9 +242,9 @@ impl ContactWorld {
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
         if !body.anchored {
-            let (mass, room) = mass(state, body.shape.reach(), self.gain);
+            let (mass, room) = mass_data(state, body.shape.reach(), self.gain);
             self.world.set_body_mass_data(id, mass).expect(SOUND);
-            self.bearings[index] = Bearing::up_to(room);
+            self.depenetrations[index] = Depenetration::up_to(room);
         }
         self.ids[index] = Some(id);
         self.index.insert(id, index);
@@ -286,7 +273,7 @@ impl ContactWorld {
 
     /// Puts a body that is not here where it is for good: it never moves, and meets what does not pass it as
     /// [`Passes::Splinters`] says. Returns whether it is there, as [`join`](Self::join).
-    pub fn fix(&mut self, index: usize, state: &RigidBody) -> bool {
+    pub fn anchor(&mut self, index: usize, state: &RigidBody) -> bool {
         let body = &mut self.bodies[index];
         (body.anchored, body.passes) = (true, Passes::Neighbours);
         self.join(index, state, false)
@@ -342,10 +329,8 @@ impl ContactWorld {
         self.world.body_events_into(&mut self.events).expect(SOUND);
         for event in &self.events {
             let Some(&index) = self.index.get(&event.body_id) else { continue };
-            let at = event.transform;
-            let position = DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into()) + self.origin;
-            let rotation = DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
-            let rotation = rotation.normalize();
+            let (place, rotation) = pose(&event.transform);
+            let (position, rotation) = (place + self.origin, rotation.normalize());
             let standstill = &mut self.standstills[index];
             let before = standstill.holds();
             standstill.watch(position, rotation, dt);
@@ -361,7 +346,7 @@ impl ContactWorld {
                 self.world.set_body_angular_velocity(event.body_id, single(spin)).expect(SOUND);
             }
             let speed = velocity.length() + spin.length() * standstill.reach();
-            self.bearings[index].watch(&mut self.world, event.body_id, speed, dt);
+            self.depenetrations[index].watch(&mut self.world, event.body_id, speed, dt);
             let moved = Moved { index, asleep: event.fell_asleep, still };
             update(moved, position, rotation, velocity, spin);
         }
@@ -371,39 +356,6 @@ impl ContactWorld {
 fn surface(foundation: &Foundation, friction: f64, passes: Passes) -> ShapeDef {
     let surface = foundation.shape_def_builder().friction(friction as f32).restitution(RESTITUTION as f32);
     surface.density(1.0).update_body_mass(false).filter(passes.filter()).build().expect(SOUND)
-}
-
-/// How many times ours Box3D's masses are where the largest body has this reach [m]. That body counts as a ball of stone.
-fn gain(largest: f64) -> f64 {
-    // Bodies that are all small turn faster, which leaves less room. By powers of two, which change no digit.
-    let halvings = (4.0 / 3.0 * -libm::log2(largest)).max(0.0);
-    LARGEST_MOMENT / (4000.0 * libm::pow(largest, 5.0)) * libm::exp2(-libm::ceil(halvings))
-}
-
-/// Mass and moments in Box3D's units, of a body that reaches this far [m]: true ones as long as they belong to a solid
-/// body and single precision holds them. And how many times as much it could hold.
-fn mass(state: &RigidBody, reach: f64, gain: f64) -> (MassData, f64) {
-    let mass = 1.0 / state.inverse_mass;
-    let reach = reach.max(hull::THINNEST);
-    // Squares of the radii of gyration, of no less than the thinnest cube and no more than what is all at the rim. A
-    // body that may not turn has none; its rotation is locked.
-    let square = |inverse: f64| if inverse > 0.0 { 1.0 / (inverse * mass) } else { 0.4 * reach * reach };
-    let (thinnest, rim) = (2.0 / 3.0 * hull::THINNEST * hull::THINNEST, 4.0 * reach * reach);
-    let squares = state.inverse_moments.to_array().map(|inverse| square(inverse).clamp(thinnest, rim));
-    let squares = DVec3::from_array(squares);
-    // A needle that turns about itself must not make the others' turn overflow.
-    let squares = squares.max(DVec3::splat(SLENDER * squares.max_element()));
-    let most = (MOST_MOMENT * libm::pow(squares.min_element(), 2.0 / 3.0)).min(MOMENTS.1);
-    let most = most / squares.max_element();
-    let mass = (gain * mass).clamp(LEAST_MASS, most);
-    let moments = mass * squares;
-    let moments = moments.max(DVec3::splat(MOMENTS.0.max(SLENDER * moments.max_element())));
-    let inertia = Matrix3 {
-        cx: single(DVec3::X * moments.x),
-        cy: single(DVec3::Y * moments.y),
-        cz: single(DVec3::Z * moments.z),
-    };
-    (MassData { mass: mass as f32, center: Vec3::ZERO, inertia }, most / mass)
 }
 
 /// A body's velocity as Box3D may have it [m/s].
@@ -416,6 +368,17 @@ fn capped_spin(state: &RigidBody) -> DVec3 {
     state.angular_velocity().clamp_length_max(FASTEST_TURN)
 }
 
+/// Place about the middle of the scene [m], and rotation.
+fn pose(transform: &WorldTransform) -> (DVec3, DQuat) {
+    let WorldTransform { p, q } = transform;
+    let rotation = DQuat::from_xyzw(q.v.x.into(), q.v.y.into(), q.v.z.into(), q.s.into());
+    (DVec3::new(p.x.into(), p.y.into(), p.z.into()), rotation)
+}
+
+fn pose_of(world: &World, id: BodyId) -> (DVec3, DQuat) {
+    pose(&world.body_transform(id).expect(SOUND))
+}
+
 fn single(v: DVec3) -> Vec3 {
     Vec3::new(v.x as f32, v.y as f32, v.z as f32)
 }
@@ -426,83 +389,4 @@ fn double(v: Vec3) -> DVec3 {
 
 fn quaternion(q: DQuat) -> Quat {
     Quat { v: Vec3::new(q.x as f32, q.y as f32, q.z as f32), s: q.w as f32 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::loading::Resistance;
-
-    /// Largest number that comes up as Box3D turns a body that was struck at the highest speed: (I h ω)³ ω, with ω such
-    /// that the part of the body at its radius of gyration has that speed.
-    fn largest_number(data: &MassData) -> f64 {
-        let moments = [data.inertia.cx.x, data.inertia.cy.y, data.inertia.cz.z].map(f64::from);
-        let (least, most) =
-            moments.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &moment| (a.min(moment), b.max(moment)));
-        let turn = f64::from(FASTEST) * (f64::from(data.mass) / least).sqrt();
-        (most * SUBSTEP * turn).powi(3) * turn
-    }
-
-    /// Whatever mass and moments a body has beside whatever else, single precision holds them and what comes of them.
-    #[test]
-    fn no_mass_and_no_moments_overflow() {
-        let sizes = [1e-6, 1e-3, 0.1, 10.0, 1e3];
-        let masses = [1e-12, 1e-6, 1.0, 1e9];
-        let moments = [0.0, 1e-30, 1e-18, 1e-6, 1.0, 1e12, f64::INFINITY, f64::NAN];
-        for (&largest, &reach) in sizes.iter().flat_map(|a| sizes.iter().map(move |b| (a, b))) {
-            for (&mass_, &moment) in masses.iter().flat_map(|a| moments.iter().map(move |b| (a, b))) {
-                let fitting = 0.4 * mass_ * reach * reach;
-                let state = RigidBody {
-                    position: DVec3::ZERO,
-                    world_from_principal: DQuat::IDENTITY,
-                    velocity: DVec3::ZERO,
-                    angular_momentum: DVec3::ZERO,
-                    inverse_mass: 1.0 / mass_,
-                    inverse_moments: DVec3::new(moment, fitting, moment).recip(),
-                    resistance: Resistance::new(DVec3::ONE, 1.0, None, mass_),
-                    reach,
-                };
-                let (data, room) = mass(&state, reach, gain(largest.max(1e-4)));
-                let [x, y, z] = [data.inertia.cx.x, data.inertia.cy.y, data.inertia.cz.z];
-                // Box3D takes a product below this for none.
-                assert!(x * y * z > 1000.0 * f32::MIN_POSITIVE && (x * y * z).is_finite(), "{data:?}");
-                assert!(data.mass > 0.0 && data.mass.is_finite() && room >= 1.0, "{data:?}, {room}");
-                assert!(largest_number(&data) < 1e37, "{largest} {reach} {data:?}");
-            }
-        }
-    }
-
-    /// A brick, a pane's piece and a splinter beside a wall have the masses and moments they have.
-    #[test]
-    fn usual_bodies_have_their_own_masses_and_moments() {
-        for (edges, density, largest) in [
-            (DVec3::new(0.25, 0.065, 0.12), 1800.0, 0.15),
-            (DVec3::new(0.3, 0.2, 0.004), 2500.0, 1.0),
-            (DVec3::new(0.002, 0.003, 0.003), 2500.0, 0.7),
-            (DVec3::new(1.0, 0.05, 0.05), 7850.0, 0.6),
-        ] {
-            let mass_ = density * edges.element_product();
-            let square = edges * edges;
-            let squares = (DVec3::splat(square.element_sum()) - square) / 12.0;
-            let reach = 0.5 * edges.length();
-            let state = RigidBody {
-                position: DVec3::ZERO,
-                world_from_principal: DQuat::IDENTITY,
-                velocity: DVec3::ZERO,
-                angular_momentum: DVec3::ZERO,
-                inverse_mass: 1.0 / mass_,
-                inverse_moments: (mass_ * squares).recip(),
-                resistance: Resistance::new(DVec3::ONE, 1.0, None, mass_),
-                reach,
-            };
-            let gain = gain(largest);
-            let (data, _) = mass(&state, reach, gain);
-            let same = |a: f32, b: f64| (f64::from(a) / b - 1.0).abs() < 1e-6;
-            assert!(same(data.mass, gain * mass_), "{edges}: {data:?}");
-            let moments = gain * mass_ * squares;
-            assert!(same(data.inertia.cx.x, moments.x), "{edges}: {data:?} {moments}");
-            assert!(same(data.inertia.cy.y, moments.y), "{edges}: {data:?} {moments}");
-            assert!(same(data.inertia.cz.z, moments.z), "{edges}: {data:?} {moments}");
-        }
-    }
 }

@@ -14,7 +14,7 @@
 use boxddd::{BodyId, JointId, Transform, WeldJointDef, World};
 use glam::{DQuat, DVec3};
 
-use super::{ContactBody, SOUND, double, quaternion, single};
+use super::{ContactBody, SOUND, double, pose_of, quaternion, single};
 
 /// What pressure on a joint adds to its shear strength.
 const INTERNAL_FRICTION: f64 = 0.4;
@@ -125,7 +125,7 @@ impl Bonds {
             let [one, other] = bond.bodies;
             let (Some(a), Some(b)) = (ids[one], ids[other]) else { continue };
             let at_both = [(one, a), (other, b)].into_iter().all(|(index, id)| {
-                let lever = (bond.middle - origin).distance(place(world, id).0);
+                let lever = (bond.middle - origin).distance(pose_of(world, id).0);
                 lever <= bodies[index].shape.reach() + bond.mortar.gap + NEAR
             });
             if !at_both {
@@ -138,7 +138,7 @@ impl Bonds {
                 _ => (a, b, 1.0),
             };
             let [at_first, at_second] = [first, second].map(|id| {
-                let (position, rotation) = place(world, id);
+                let (position, rotation) = pose_of(world, id);
                 let inverse = rotation.conjugate();
                 (inverse * (bond.middle - origin - position), inverse * bond.world_from_joint)
             });
@@ -166,7 +166,7 @@ impl Bonds {
             let ours = held.sign / self.gain;
             let force = double(world.joint_constraint_force(held.joint).expect(SOUND)) * ours;
             let torque = double(world.joint_constraint_torque(held.joint).expect(SOUND)) * ours;
-            let (_, world_from_first) = place(world, held.first);
+            let (_, world_from_first) = pose_of(world, held.first);
             let into_joint = (world_from_first * held.first_from_joint).conjugate();
             let holds = held.bond.bears(into_joint * force, into_joint * torque);
             if !holds {
@@ -175,13 +175,6 @@ impl Bonds {
             holds
         });
     }
-}
-
-/// Where a body is in Box3D's world [m], and its rotation.
-fn place(world: &World, id: BodyId) -> (DVec3, DQuat) {
-    let at = world.body_transform(id).expect(SOUND);
-    let rotation = DQuat::from_xyzw(at.q.v.x.into(), at.q.v.y.into(), at.q.v.z.into(), at.q.s.into());
-    (DVec3::new(at.p.x.into(), at.p.y.into(), at.p.z.into()), rotation)
 }
 
 impl Bond {

@@ -8,7 +8,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::cells::mesh_hulls;
-use crate::geometry::{Polygon, TriangleMesh, Triangulator, convex_parts, simplified};
+use crate::geometry::{Polygon, TriangleMesh, Triangulator, bounds, convex_parts, simplified};
 
 /// Deepest pocket of a flat piece that its collision shape may fill: this part of its smaller half extent, and at
 /// least [`SHALLOW`] [m].
@@ -36,11 +36,12 @@ pub enum CollisionShape {
 }
 
 impl CollisionShape {
-    /// The corner with the lowest and the one with the highest coordinates [m].
+    /// The corner with the lowest and the one with the highest coordinates [m]; the origin twice where there are none.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
             Self::Box(half) => (-*half, *half),
-            Self::Hulls(hulls) => bounds(hulls.iter().flatten()),
+            Self::Hulls(hulls) if hulls.iter().all(Vec::is_empty) => (DVec3::ZERO, DVec3::ZERO),
+            Self::Hulls(hulls) => bounds(hulls.iter().flatten().copied()),
         }
     }
 
@@ -79,19 +80,10 @@ impl CollisionShape {
     }
 }
 
-/// The corners of the smallest box about points; about the origin where there are none.
-pub fn bounds<'a>(points: impl IntoIterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
-    let both = points.into_iter().map(|&p| (p, p));
-    both.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_default()
-}
-
 /// The outlines of a flat piece's parts.
 fn flat_parts(outline: &Polygon) -> Vec<Vec<DVec2>> {
-    let points = outline.points();
-    let reach = points
-        .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-    let tolerance = SHALLOW.max(POCKET * 0.5 * (reach.1 - reach.0).min_element());
+    let (low, high) = bounds(outline.points().iter().copied());
+    let tolerance = SHALLOW.max(POCKET * 0.5 * (high - low).min_element());
     let mut triangles = Vec::new();
     let parts = match Triangulator::default().triangulate(outline, &mut triangles) {
         Ok(()) => convex_parts(outline, &triangles, tolerance),

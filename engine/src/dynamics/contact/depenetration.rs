@@ -8,16 +8,17 @@
 //! Or two shards that met edge on have locked: parts of the one press the other from both sides, and neither gets away.
 //! They are moved apart along the line between their centres, across the direction in which they hold each other.
 
-use boxddd::{BodyId, ContactData, MassData, Matrix3, Vec3, World};
+use boxddd::{BodyId, ContactData, Manifold, World};
 use glam::DVec3;
 
-use super::{SOUND, double, single};
+use super::mass::scaled;
+use super::{SOUND, double, pose_of, single};
 
 /// How deep a body may be in another before something is done about it [m].
 const DEPTH: f64 = 1e-3;
-/// A body slower than this for so long lies on something [m/s, s]: what falls is faster. Pieces that are let go overlap a
-/// little, and come apart by themselves.
+/// A body that has been slower than this [m/s] for [`DELAY`] lies on something: what falls is faster.
 const SLOW: f64 = 0.3;
+/// See [`SLOW`] [s]. Pieces that are let go overlap a little, and come apart by themselves.
 const DELAY: f64 = 0.2;
 /// One faster than this has its own mass [m/s].
 const FAST: f64 = 0.6;
@@ -30,7 +31,7 @@ const PART: f64 = 1e-3;
 
 /// How much more mass a body has than its own, and when its contacts are looked at next.
 #[derive(Debug, Clone, Copy)]
-pub struct Bearing {
+pub struct Depenetration {
     /// Times its own mass, and how much that may be [1].
     factor: f32,
     most: f32,
@@ -51,7 +52,7 @@ enum Grip {
     Locked(DVec3),
 }
 
-impl Bearing {
+impl Depenetration {
     /// A body with its own mass, of which Box3D can hold so many times.
     pub fn up_to(most: f64) -> Self {
         Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false }
@@ -60,7 +61,7 @@ impl Bearing {
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
     pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
         if speed > FAST && self.factor > 1.0 {
-            gain_mass(world, id, 1.0 / self.factor);
+            change_mass(world, id, 1.0 / self.factor);
             self.factor = 1.0;
         }
         if !self.is_due(speed, dt) {
@@ -76,12 +77,12 @@ impl Bearing {
             Grip::None => {}
             Grip::Pressed => {
                 if 2.0 * self.factor <= self.most {
-                    gain_mass(world, id, 2.0);
+                    change_mass(world, id, 2.0);
                     self.factor *= 2.0;
                 }
             }
             Grip::Locked(shift) => {
-                let at = place(world, id) + shift;
+                let at = pose_of(world, id).0 + shift;
                 let rotation = world.body_rotation(id).expect(SOUND);
                 world.set_body_transform(id, single(at), rotation).expect(SOUND);
             }
@@ -99,14 +100,9 @@ impl Bearing {
     }
 }
 
-/// Multiplies a body's mass and moments by a power of two, which changes no digit, so that it can get back the very mass
-/// it had.
-fn gain_mass(world: &mut World, id: BodyId, times: f32) {
-    let MassData { mass, center, inertia } = world.body_mass_data(id).expect(SOUND);
-    let [x, y, z] = [inertia.cx.x, inertia.cy.y, inertia.cz.z].map(|moment| times * moment);
-    let inertia =
-        Matrix3 { cx: Vec3::new(x, 0.0, 0.0), cy: Vec3::new(0.0, y, 0.0), cz: Vec3::new(0.0, 0.0, z) };
-    world.set_body_mass_data(id, MassData { mass: times * mass, center, inertia }).expect(SOUND);
+fn change_mass(world: &mut World, id: BodyId, factor: f32) {
+    let data = world.body_mass_data(id).expect(SOUND);
+    world.set_body_mass_data(id, scaled(&data, factor)).expect(SOUND);
 }
 
 fn grip(world: &World, id: BodyId) -> Grip {
@@ -125,7 +121,7 @@ fn grip(world: &World, id: BodyId) -> Grip {
             // What does not move has no mass.
             pressed |= heavy == 0.0 || heavy > own;
             if held.iter().any(|&(body, from)| body == other && from.dot(normal) < -0.5) {
-                let apart = place(world, id) - place(world, other);
+                let apart = pose_of(world, id).0 - pose_of(world, other).0;
                 let out = apart.reject_from(normal).normalize_or_zero();
                 let share = if heavy == 0.0 { 1.0 } else { heavy / (heavy + own) };
                 return Grip::Locked(PART * share * out);
@@ -136,16 +132,9 @@ fn grip(world: &World, id: BodyId) -> Grip {
     if pressed { Grip::Pressed } else { Grip::None }
 }
 
-/// A body's place about the middle of the scene [m].
-fn place(world: &World, id: BodyId) -> DVec3 {
-    let at = world.body_position(id).expect(SOUND);
-    DVec3::new(at.x.into(), at.y.into(), at.z.into())
-}
-
 /// Normals from the first shape to the second where the two are deep in each other.
 fn deep_normals(contact: &ContactData) -> impl Iterator<Item = DVec3> + '_ {
-    let deep = |manifold: &&boxddd::Manifold| {
-        manifold.points().iter().any(|point| f64::from(point.separation) < -DEPTH)
-    };
+    let deep =
+        |manifold: &&Manifold| manifold.points().iter().any(|point| f64::from(point.separation) < -DEPTH);
     contact.manifolds.iter().filter(deep).map(|manifold| double(manifold.normal))
 }
