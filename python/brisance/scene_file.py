@@ -52,7 +52,7 @@ def load(path: Path | str, overrides: Iterable[str] = ()) -> Scene:
 
 
 @contextmanager
-def telling_of(path: Path | str) -> Iterator[None]:
+def named_in_errors(path: Path | str) -> Iterator[None]:
     """Begin what is found wrong with a scene only as it is built or simulated with its file, as
     :func:`load` does.
     """

@@ -13,7 +13,7 @@ from brisance.curve_table import curve_source
 from brisance.model import Charge, Scene
 from brisance.piece import PieceMesh
 from brisance.rotation import rotate
-from brisance.scene_file import load, telling_of
+from brisance.scene_file import load, named_in_errors
 from brisance.simulation import Built, build
 
 _OBJECTS = ("object", "kind", "pieces", "mass kg", "centre m", "anchored")
@@ -23,7 +23,7 @@ _BLAST = ("object", "charge", "nearest m", "Z m/kg^1/3", "arrival ms", "overpres
 def describe(path: Path, changes: list[str]) -> str:
     """The scene in a file, as text."""
     scene = load(path, changes)
-    with telling_of(path):
+    with named_in_errors(path):
         built = build(scene)
     start = built.engine.standing()
     centres, orientations = start["centre_m"], start["orientation"]

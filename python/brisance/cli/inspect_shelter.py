@@ -14,7 +14,7 @@ from brisance.errors import InputError
 from brisance.figures import style
 from brisance.figures.sphere_sheet import HEIGHT, WIDTH, draw_faces, draw_pixels, frame_sheet
 from brisance.formats.atomic import check_writable, replacing
-from brisance.scene_file import load, telling_of
+from brisance.scene_file import load, named_in_errors
 from brisance.simulation import Built, build
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def draw_map(path: Path, changes: list[str], output: Path) -> str:
     if check_writable(output).suffix.lower() != ".png":
         raise InputError(f"{output}: the map is a picture; give a name that ends in .png.")
     scene = load(path, changes)
-    with telling_of(path):
+    with named_in_errors(path):
         built = build(scene)
     try:
         seen = [built.engine.seen_from(charge) for charge in range(len(scene.charges))]

@@ -48,7 +48,7 @@ def run(
     from brisance.errors import InputError
     from brisance.formats.atomic import check_writable
     from brisance.result import ANIMATION_SUFFIXES, check_output
-    from brisance.scene_file import load, telling_of
+    from brisance.scene_file import load, named_in_errors
     from brisance.simulation import simulate
 
     if output is not None:
@@ -65,7 +65,7 @@ def run(
     loaded = load(scene, changes or ())
     if frames is not None:
         loaded = first_frames(loaded, frames)
-    with telling_of(scene):
+    with named_in_errors(scene):
         result = simulate(loaded, progress=not quiet, threads=threads)
     for path in (output, report):
         if path is not None:

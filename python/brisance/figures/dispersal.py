@@ -17,7 +17,7 @@ from brisance.errors import InputError
 from brisance.figures import style, wall
 from brisance.figures.figure import Figure, Table
 from brisance.rotation import rotate
-from brisance.scene_file import load, telling_of
+from brisance.scene_file import load, named_in_errors
 from brisance.simulation import simulate
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ def figure_of(path: Path) -> Figure[Lying]:
                 raise InputError(f"{path} does not exist; give a scene file (.toml) or a report (.json).")
             return of_report(path)
         scene = load(path)
-        with telling_of(path):
+        with named_in_errors(path):
             return of_result(simulate(scene))
 
     return Figure(

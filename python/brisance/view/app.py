@@ -94,7 +94,7 @@ class _View:
         scene = self._folder.scene(asked.get("file"), asked.get("scene"))
 
         def save(job: Job) -> bytes:
-            with self._folder.telling_of(asked.get("file")):
+            with self._folder.named_in_errors(asked.get("file")):
                 return saved(scene, kind, job)
 
         run = asyncio.create_task(self._workers.run(Job(), save))

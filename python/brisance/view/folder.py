@@ -13,7 +13,7 @@ from brisance.errors import InputError
 from brisance.formats.packed import check_shown
 from brisance.memory import check_fits
 from brisance.model import Scene
-from brisance.scene_file import read_tables, scene_of, telling_of
+from brisance.scene_file import named_in_errors, read_tables, scene_of
 from brisance.sentences import on_one_line
 
 DEEPEST = 16
@@ -58,14 +58,14 @@ class ScenesFolder:
             raise InputError(f"{path}: a scene must be a table of keys.")
         self._check_files(path, data)
         scene = scene_of(data, path)
-        with telling_of(path):
+        with named_in_errors(path):
             check_shown(scene)
             check_fits(scene.time.frames, scene.piece_count, copies=COPIES)
         return scene
 
-    def telling_of(self, name: Any) -> AbstractContextManager[None]:
+    def named_in_errors(self, name: Any) -> AbstractContextManager[None]:
         """Begin what a run finds wrong with the scene of a request with its file, as :meth:`scene` does."""
-        return telling_of(self._path(name))
+        return named_in_errors(self._path(name))
 
     def _path(self, name: Any) -> Path:
         """Path of a file of the folder itself: no other folder, nothing hidden, no link that leads out."""

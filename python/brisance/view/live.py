@@ -80,7 +80,7 @@ class Conversation:
         started = time.perf_counter()
         file = request.get("file")
         scene = self._folder.scene(file, request.get("scene"))
-        with self._folder.telling_of(file):
+        with self._folder.named_in_errors(file):
             result = simulate(scene, progress=job.goes_on)
         job.goes_on()
         known = request.get("have")
