@@ -229,7 +229,7 @@ def _draw_rings(axes: Axes, lying: Lying) -> None:
             f"{count}", (place, mass), xytext=(0, 3), textcoords="offset points", ha="center", fontsize=9
         )
     axes.set_xticks(places, labels)
-    axes.set_xlabel("distance from the middle of where they were [m]")
+    axes.set_xlabel("distance from their middle before [m]")
     axes.set_ylabel("mass [kg]; the number of pieces above")
 
 
