@@ -21,13 +21,15 @@ const SLOW: f64 = 0.3;
 /// See [`SLOW`] [s]. Pieces that are let go overlap a little, and come apart by themselves.
 const DELAY: f64 = 0.2;
 /// One faster than this has its own mass [m/s].
-const FAST: f64 = 0.6;
+pub const FAST: f64 = 0.6;
 /// Time between two looks at a body's contacts [s]; a contact gives way within a few hundredths of a second.
 const PERIOD: f64 = 0.02;
 /// The largest mass, in its own [1].
 const MOST: f64 = 4096.0;
-/// By so much two bodies that have locked are moved apart at each look [m].
+/// By so much two bodies that have locked are moved apart at the first look [m], at the second by twice that, and so on.
 const PART: f64 = 1e-3;
+/// At most by this many times that.
+const MOST_PARTS: u32 = 10;
 
 /// How much more mass a body has than its own, and when its contacts are looked at next.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +41,8 @@ pub struct Depenetration {
     wait: f64,
     /// Whether it had locked at the last look. It must not sleep then: it has no speed, since it is shifted.
     locked: bool,
+    /// How often it has been shifted since it was last deep in nothing, up to [`MOST_PARTS`].
+    shifts: u32,
 }
 
 /// What holds a body that is deep in others.
@@ -55,17 +59,18 @@ enum Grip {
 impl Depenetration {
     /// A body with its own mass, of which Box3D can hold so many times.
     pub fn up_to(most: f64) -> Self {
-        Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false }
+        Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false, shifts: 0 }
     }
 
-    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
-    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
+    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns whether it was time
+    /// to look at the body's contacts.
+    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) -> bool {
         if speed > FAST && self.factor > 1.0 {
             change_mass(world, id, 1.0 / self.factor);
             self.factor = 1.0;
         }
         if !self.is_due(speed, dt) {
-            return;
+            return false;
         }
         let grip = grip(world, id);
         let locked = matches!(grip, Grip::Locked(_));
@@ -74,7 +79,7 @@ impl Depenetration {
             self.locked = locked;
         }
         match grip {
-            Grip::None => {}
+            Grip::None => self.shifts = 0,
             Grip::Pressed => {
                 if 2.0 * self.factor <= self.most {
                     change_mass(world, id, 2.0);
@@ -82,16 +87,23 @@ impl Depenetration {
                 }
             }
             Grip::Locked(shift) => {
-                let at = pose_of(world, id).0 + shift;
+                self.shifts = (self.shifts + 1).min(MOST_PARTS);
+                let at = pose_of(world, id).0 + f64::from(self.shifts) * shift;
                 let rotation = world.body_rotation(id).expect(SOUND);
                 world.set_body_transform(id, single(at), rotation).expect(SOUND);
             }
         }
+        true
+    }
+
+    /// Whether the body had locked with another at the last look.
+    pub fn is_locked(&self) -> bool {
+        self.locked
     }
 
     /// Whether it is time to look at the contacts of a body that hardly moves.
     fn is_due(&mut self, speed: f64, dt: f64) -> bool {
-        self.wait = if speed > SLOW { DELAY } else { self.wait - dt };
+        self.wait = if speed > if self.locked { FAST } else { SLOW } { DELAY } else { self.wait - dt };
         let due = self.wait <= 0.0;
         if due {
             self.wait = PERIOD;

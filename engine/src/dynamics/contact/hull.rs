@@ -42,6 +42,8 @@ pub struct PlacedHull {
     pub scale: Vec3,
     /// Volume in its place [m³].
     pub volume: f64,
+    /// Its corners in their places [m], and perhaps points within it; at most [`MOST_POINTS`].
+    pub corners: Vec<DVec3>,
 }
 
 /// The hull of points [m]; `None` where they lie in a plane, or nearly, or are not numbers.
@@ -79,11 +81,15 @@ pub fn hull_of(points: &[DVec3]) -> Option<PlacedHull> {
     }
     let volume = part * 8.0 * half.x * half.y * half.z;
     let turn = axes.map_or(DQuat::IDENTITY, |axes| DQuat::from_mat3(&axes));
+    let in_place = |&[x, y, z]: &[i32; 3]| {
+        turn * (middle + half * DVec3::new(x.into(), y.into(), z.into()) / f64::from(grid))
+    };
+    let places = chosen.iter().map(in_place).collect();
     let place = Transform::new(single(turn * middle), quaternion(turn));
     let scale = single(scale);
     // Single precision may leave nothing of what is small and far from the centre of mass.
     hull.clone_transformed(place, scale).ok()?;
-    Some(PlacedHull { hull, place, scale, volume })
+    Some(PlacedHull { hull, place, scale, volume, corners: places })
 }
 
 /// The own axes of points [m] that lie slantwise.

@@ -10,13 +10,17 @@
 //! mathematics library and fused operations.
 
 mod cells;
+mod convex;
 mod depenetration;
+mod energy;
 mod hull;
 mod mass;
 mod mortar;
 mod shape;
 mod standstill;
+mod studs;
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use boxddd::{
@@ -27,12 +31,15 @@ use glam::{DQuat, DVec3};
 
 use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
 use super::{GRAVITY, RigidBody};
+use convex::Convex;
 use depenetration::Depenetration;
+use energy::{Change, Energy};
 use mass::{gain, mass_data};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
 pub use shape::CollisionShape;
 use standstill::Standstill;
+use studs::Studs;
 
 /// Box3D's tolerances are for bodies of a metre; ours are this much finer: its slop is 0.25 mm, the distance at which
 /// contacts begin 1 mm.
@@ -120,6 +127,19 @@ pub struct Moved {
     pub still: bool,
 }
 
+/// A body after a step.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    index: usize,
+    id: BodyId,
+    asleep: bool,
+    position: DVec3,
+    rotation: DQuat,
+    velocity: DVec3,
+    spin: DVec3,
+    change: Change,
+}
+
 /// All bodies that can touch.
 pub struct ContactWorld {
     world: World,
@@ -128,12 +148,20 @@ pub struct ContactWorld {
     index: HashMap<BodyId, usize>,
     standstills: Vec<Standstill>,
     depenetrations: Vec<Depenetration>,
+    studs: Vec<Studs>,
+    /// What the bodies are made of, known of those that were deep in others.
+    solids: Vec<OnceCell<Vec<Convex>>>,
+    /// The ground's body, and what it is.
+    ground: Option<(BodyId, Vec<Convex>)>,
     /// Box3D's masses are this many times ours. Only their ratios matter to motion, and the moments of a splinter of
     /// glass are so small that their product is nothing in single precision: it would turn forever.
     gain: f64,
     bonds: Bonds,
     origin: DVec3,
+    energies: Vec<Energy>,
     events: Vec<BodyMoveEvent>,
+    /// The bodies that were awake in the last step.
+    steps: Vec<Step>,
 }
 
 /// What Box3D refuses is a mistake of ours, since scenes are checked before.
@@ -166,15 +194,16 @@ impl ContactWorld {
         let mut world = foundation.create_world(settings.build().expect(SOUND)).expect(SOUND);
         let (half, depth) = GROUND;
         let within_reach = |ground: &Ground| (ground.height - origin.y).abs() < REACH;
-        if let Some(ground) = ground.filter(within_reach) {
+        let ground = ground.filter(within_reach).map(|ground| {
             let top = (ground.height - origin.y) as f32;
             let below = foundation.body_def_builder().position([0.0, top - 0.5 * depth, 0.0]);
             let id = world.create_body(below.build().expect(SOUND)).expect(SOUND);
             let slab = BoxHull::new(half, 0.5 * depth, half).expect(SOUND);
             world
-                .create_hull_shape(id, &surface(foundation, ground.friction, Passes::Nothing), &slab)
+                .create_hull_shape(id, &surface(ground.friction, Passes::Nothing.filter()), &slab)
                 .expect(SOUND);
-        }
+            (id, vec![Convex::below(f64::from(0.5 * depth))])
+        });
         let ids = vec![None; bodies.len()];
         let largest = bodies.iter().filter(|body| !body.anchored).map(|body| body.shape.reach());
         let largest = largest.fold(0.0, f64::max).clamp(1e-4, LARGEST);
@@ -186,11 +215,16 @@ impl ContactWorld {
             index: HashMap::new(),
             standstills,
             depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
+            energies: vec![Energy::default(); bodies.len()],
+            studs: vec![Studs::default(); bodies.len()],
+            solids: vec![OnceCell::new(); bodies.len()],
+            ground,
             bodies,
             gain,
             bonds: Bonds::new(gain),
             origin,
             events: Vec::new(),
+            steps: Vec::new(),
         }
     }
 
@@ -222,29 +256,24 @@ impl ContactWorld {
                 .awake(awake);
         }
         let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
-        let surface = surface(foundation, body.friction, body.passes);
+        let surface = surface(body.friction, body.passes.filter());
         let mut hulls = 0;
-        let (low, high) = body.shape.bounds();
-        let thin = 0.5 * (high - low).min_element() < hull::THINNEST;
-        if let (CollisionShape::Hulls(all), false) = (&body.shape, thin) {
-            for placed in all.iter().filter_map(|points| hull::hull_of(points)) {
-                let (place, scale) = (placed.place, placed.scale);
-                self.world
-                    .create_transformed_hull_shape(id, &surface, &placed.hull, place, scale)
-                    .expect(SOUND);
-                hulls += 1;
-            }
+        for placed in body.shape.parts().iter().filter_map(|points| hull::hull_of(points)) {
+            let (place, scale) = (placed.place, placed.scale);
+            self.world.create_transformed_hull_shape(id, &surface, &placed.hull, place, scale).expect(SOUND);
+            hulls += 1;
         }
         if hulls == 0 {
-            // A box, or what is so thin that it has no hull.
-            let half = single((0.5 * (high - low)).max(DVec3::splat(hull::THINNEST)));
-            let slab = BoxHull::offset(half.x, half.y, half.z, single(0.5 * (low + high))).expect(SOUND);
+            let (middle, half) = body.shape.slab();
+            let half = single(half);
+            let slab = BoxHull::offset(half.x, half.y, half.z, single(middle)).expect(SOUND);
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
         if !body.anchored {
             let (mass, room) = mass_data(state, body.shape.reach(), self.gain);
             self.world.set_body_mass_data(id, mass).expect(SOUND);
             self.depenetrations[index] = Depenetration::up_to(room);
+            self.energies[index] = Energy::of(state);
         }
         self.ids[index] = Some(id);
         self.index.insert(id, index);
@@ -266,6 +295,7 @@ impl ContactWorld {
     pub fn leave(&mut self, index: usize) {
         if let Some(id) = self.ids[index].take() {
             self.bonds.forget(index);
+            self.studs[index].forget();
             self.index.remove(&id);
             self.world.destroy_body(id).expect(SOUND);
         }
@@ -282,6 +312,7 @@ impl ContactWorld {
     /// Lets a body meet everything from now on but what it `passes`; what touches it wakes.
     pub fn pass(&mut self, index: usize, passes: Passes) {
         self.bodies[index].passes = passes;
+        self.studs[index].remove(&mut self.world);
         let Some(id) = self.ids[index] else { return };
         for shape in self.world.body_shapes(id).expect(SOUND) {
             self.world.set_shape_filter(shape, passes.filter(), true).expect(SOUND);
@@ -315,8 +346,10 @@ impl ContactWorld {
         if !state.velocity.is_finite() || !state.angular_velocity().is_finite() {
             return;
         }
-        self.world.set_body_linear_velocity(id, single(capped_velocity(state))).expect(SOUND);
-        self.world.set_body_angular_velocity(id, single(capped_spin(state))).expect(SOUND);
+        let (velocity, spin) = (capped_velocity(state), capped_spin(state));
+        self.world.set_body_linear_velocity(id, single(velocity)).expect(SOUND);
+        self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
+        self.energies[index].look(state.position, state.world_from_principal, velocity, spin);
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
@@ -326,36 +359,121 @@ impl ContactWorld {
         let substeps = libm::ceil(dt / SUBSTEP - 1e-9).max(1.0) as i32;
         self.world.step(dt as f32, substeps).expect(SOUND);
         self.bonds.yield_where_overloaded(&mut self.world);
+        self.hear();
+        self.give_energy_back();
+        let steps = std::mem::take(&mut self.steps);
+        for step in &steps {
+            self.settle(step, dt);
+            let Step { index, asleep, position, rotation, velocity, spin, .. } = *step;
+            let moved = Moved { index, asleep, still: self.standstills[index].holds() };
+            update(moved, position, rotation, velocity, spin);
+        }
+        self.steps = steps;
+    }
+
+    /// Takes in what has become of the bodies that were awake in a step.
+    fn hear(&mut self) {
         self.world.body_events_into(&mut self.events).expect(SOUND);
+        self.steps.clear();
         for event in &self.events {
-            let Some(&index) = self.index.get(&event.body_id) else { continue };
+            let id = event.body_id;
+            let Some(&index) = self.index.get(&id) else { continue };
             let (place, rotation) = pose(&event.transform);
             let (position, rotation) = (place + self.origin, rotation.normalize());
-            let standstill = &mut self.standstills[index];
-            let before = standstill.holds();
-            standstill.watch(position, rotation, dt);
-            let still = standstill.holds();
-            if still != before {
-                let threshold = if still { TREMOR } else { SLEEP_SPEED };
-                self.world.set_body_sleep_threshold(event.body_id, threshold).expect(SOUND);
-            }
-            let velocity = double(self.world.body_linear_velocity(event.body_id).expect(SOUND));
-            let mut spin = double(self.world.body_angular_velocity(event.body_id).expect(SOUND));
+            let velocity = double(self.world.body_linear_velocity(id).expect(SOUND));
+            let mut spin = double(self.world.body_angular_velocity(id).expect(SOUND));
             if spin.is_finite() && spin.length_squared() > FASTEST_TURN * FASTEST_TURN {
                 spin = spin.clamp_length_max(FASTEST_TURN);
-                self.world.set_body_angular_velocity(event.body_id, single(spin)).expect(SOUND);
+                self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
             }
-            let speed = velocity.length() + spin.length() * standstill.reach();
-            self.depenetrations[index].watch(&mut self.world, event.body_id, speed, dt);
-            let moved = Moved { index, asleep: event.fell_asleep, still };
-            update(moved, position, rotation, velocity, spin);
+            let change = self.energies[index].look(position, rotation, velocity, spin);
+            let asleep = event.fell_asleep;
+            self.steps.push(Step { index, id, asleep, position, rotation, velocity, spin, change });
+        }
+    }
+
+    /// Slows the bodies that gained energy in a step in which all together did.
+    fn give_energy_back(&mut self) {
+        let part = energy::excess(self.steps.iter().map(|step| step.change));
+        if part.is_nan() || part <= 0.0 {
+            return;
+        }
+        for step in &mut self.steps {
+            let Change { gain, kinetic, .. } = step.change;
+            if gain <= 0.0 || kinetic <= 0.0 || step.asleep {
+                continue;
+            }
+            let back = (part * gain).min(kinetic);
+            let scale = libm::sqrt(1.0 - back / kinetic);
+            (step.velocity, step.spin) = (step.velocity * scale, step.spin * scale);
+            self.world.set_body_linear_velocity(step.id, single(step.velocity)).expect(SOUND);
+            self.world.set_body_angular_velocity(step.id, single(step.spin)).expect(SOUND);
+            self.energies[step.index].give_back(back);
+        }
+    }
+
+    /// Helps a body that hardly moves to lie still, and not in others.
+    fn settle(&mut self, step: &Step, dt: f64) {
+        let &Step { index, id, .. } = step;
+        let standstill = &mut self.standstills[index];
+        let before = standstill.holds();
+        standstill.watch(step.position, step.rotation, dt);
+        let still = standstill.holds();
+        if still != before {
+            let threshold = if still { TREMOR } else { SLEEP_SPEED };
+            self.world.set_body_sleep_threshold(id, threshold).expect(SOUND);
+        }
+        let speed = step.velocity.length() + step.spin.length() * standstill.reach();
+        let looked = self.depenetrations[index].watch(&mut self.world, id, speed, dt);
+        if speed > studs::FAST || self.depenetrations[index].is_locked() {
+            self.studs[index].remove(&mut self.world);
+        } else if looked || step.asleep {
+            self.put_studs(index, id);
+        }
+    }
+
+    /// Puts studs on a body where it is deepest in each of those about it.
+    fn put_studs(&mut self, index: usize, id: BodyId) {
+        let (place, turn) = pose_of(&self.world, id);
+        let body = &self.bodies[index];
+        let surface = surface(body.friction, studs::filter(body.passes.filter()));
+        for other in studs::near(&self.world, id, body.passes.filter()) {
+            let (there, turned) = pose_of(&self.world, other);
+            let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));
+            let Some(others) = self.solids_of(other) else { continue };
+            let own = self.solids[index].get_or_init(|| solids(&body.shape));
+            let deepest = own.iter().flat_map(|part| {
+                others.iter().filter_map(|other| part.deepest_in(other, relative, shift, studs::DEPTH))
+            });
+            if let Some((point, _)) = deepest.max_by(|a, b| a.1.total_cmp(&b.1)) {
+                self.studs[index].add(&mut self.world, id, point, &surface);
+            }
+        }
+    }
+
+    /// What a body is made of; `None` of one that has just gone.
+    fn solids_of(&self, id: BodyId) -> Option<&[Convex]> {
+        match &self.ground {
+            Some((ground, solids)) if *ground == id => Some(solids),
+            _ => {
+                let &index = self.index.get(&id)?;
+                Some(self.solids[index].get_or_init(|| solids(&self.bodies[index].shape)))
+            }
         }
     }
 }
 
-fn surface(foundation: &Foundation, friction: f64, passes: Passes) -> ShapeDef {
-    let surface = foundation.shape_def_builder().friction(friction as f32).restitution(RESTITUTION as f32);
-    surface.density(1.0).update_body_mass(false).filter(passes.filter()).build().expect(SOUND)
+/// The convex solids that a shape is to Box3D.
+fn solids(shape: &CollisionShape) -> Vec<Convex> {
+    let hulls = shape.parts().iter().filter_map(|points| hull::hull_of(points));
+    let parts: Vec<Convex> = hulls.map(|placed| Convex::hull_of(&placed.corners)).collect();
+    let (middle, half) = shape.slab();
+    if parts.is_empty() { vec![Convex::of_box(middle, half)] } else { parts }
+}
+
+fn surface(friction: f64, filter: Filter) -> ShapeDef {
+    let surface = foundation().shape_def_builder().friction(friction as f32).restitution(RESTITUTION as f32);
+    surface.density(1.0).update_body_mass(false).filter(filter).build().expect(SOUND)
 }
 
 /// A body's velocity as Box3D may have it [m/s].

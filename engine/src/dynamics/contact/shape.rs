@@ -8,6 +8,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::cells::mesh_hulls;
+use super::hull::THINNEST;
 use crate::geometry::{Polygon, TriangleMesh, Triangulator, bounds, convex_parts, simplified};
 
 /// Deepest pocket of a flat piece that its collision shape may fill: this part of its smaller half extent, and at
@@ -52,6 +53,22 @@ impl CollisionShape {
             Self::Box(half) => half.length(),
             Self::Hulls(hulls) => hulls.iter().flatten().fold(0.0, farthest),
         }
+    }
+
+    /// The points of its convex parts [m]; none of a box, and of what is so thin that it counts as one.
+    pub fn parts(&self) -> &[Vec<DVec3>] {
+        let (low, high) = self.bounds();
+        let thin = 0.5 * (high - low).min_element() < THINNEST;
+        match self {
+            Self::Hulls(hulls) if !thin => hulls,
+            _ => &[],
+        }
+    }
+
+    /// Middle and half edges of the box that it is where it has no parts [m].
+    pub fn slab(&self) -> (DVec3, DVec3) {
+        let (low, high) = self.bounds();
+        (0.5 * (low + high), (0.5 * (high - low)).max(DVec3::splat(THINNEST)))
     }
 
     /// A box with edges `size` [m] in the body's own frame.

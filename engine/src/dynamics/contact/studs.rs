@@ -1,0 +1,72 @@
+//! Studs: tiny balls on a body's edges that hold it where the library's contacts let it sink.
+//!
+//! Box3D keeps four points of the faces with which two shapes touch, chosen by the area between them. A face of more
+//! corners that stands steeply on another dips in beside those four. So where a body that hardly moves is deep in another,
+//! the deepest point of its edges gets a stud, which is a contact of its own. They go as soon as the body moves: a shape as
+//! small would have its motion followed continuously at every step.
+
+use boxddd::{BodyId, Filter, QueryFilter, ShapeDef, ShapeId, Sphere, World};
+use glam::DVec3;
+
+use super::{SOUND, single};
+
+/// How deep an edge may be in another body before it gets a stud [m].
+pub const DEPTH: f64 = 5e-4;
+/// A body faster than this loses its studs [m/s]. One that comes out of another is slower.
+pub const FAST: f64 = 2.0;
+/// A stud's radius [m].
+const RADIUS: f32 = 1e-4;
+/// No two studs are nearer than this [m].
+const APART: f64 = 2e-3;
+/// Most studs of a body.
+const MOST: usize = 24;
+/// What studs are to other shapes: they meet each other nowhere.
+const CATEGORY: u64 = 8;
+
+/// The studs of one body: where they are, in its principal axes [m], and their shapes.
+#[derive(Debug, Clone, Default)]
+pub struct Studs(Vec<(DVec3, ShapeId)>);
+
+impl Studs {
+    /// Puts a stud on a body, unless there is one already, and wakes it.
+    pub fn add(&mut self, world: &mut World, id: BodyId, point: DVec3, surface: &ShapeDef) {
+        if self.0.len() < MOST && self.0.iter().all(|(other, _)| other.distance(point) >= APART) {
+            let ball = Sphere::new(single(point), RADIUS);
+            self.0.push((point, world.create_sphere_shape(id, surface, &ball).expect(SOUND)));
+            world.set_body_awake(id, true).expect(SOUND);
+        }
+    }
+
+    /// Takes all of them off.
+    pub fn remove(&mut self, world: &mut World) {
+        for (_, shape) in self.0.drain(..) {
+            world.destroy_shape(shape, false).expect(SOUND);
+        }
+    }
+
+    /// Forgets them, where the body is gone.
+    pub fn forget(&mut self) {
+        self.0.clear();
+    }
+}
+
+/// What the studs of a body meet that meets others by this filter.
+pub fn filter(Filter { mask_bits, .. }: Filter) -> Filter {
+    Filter { category_bits: CATEGORY, mask_bits: mask_bits & !CATEGORY, group_index: 0 }
+}
+
+/// The bodies whose bounds meet those of a body that meets others by this filter, each once.
+///
+/// Not those that it touches: the library finds no contact between some shapes that overlap.
+pub fn near(world: &World, id: BodyId, Filter { category_bits, mask_bits, .. }: Filter) -> Vec<BodyId> {
+    let mut others = Vec::new();
+    let bounds = world.body_aabb(id).expect(SOUND);
+    let filter = QueryFilter::default().category_bits(category_bits).mask_bits(mask_bits);
+    for hit in world.overlap_aabb(bounds, filter).expect(SOUND) {
+        let body = world.shape_body(hit.shape_id).expect(SOUND);
+        if body != id && !others.contains(&body) {
+            others.push(body);
+        }
+    }
+    others
+}
