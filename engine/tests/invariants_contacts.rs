@@ -1,5 +1,5 @@
-//! What holds for whatever is thrown: nothing is lost, hardly anything ends in the ground or in another body, and energy
-//! hardly ever rises.
+//! What holds for whatever is thrown: nothing is lost, nothing ends in the ground or in another body, and energy does not
+//! rise.
 //!
 //! Each scene is drawn from a number: boxes, shards of broken panes and meshes, piled up or thrown at up to 1 000 m/s,
 //! on the ground or on slopes. `BRISANCE_CASES=1000 cargo test --release --test invariants_contacts` runs more.
@@ -129,9 +129,8 @@ struct Outcome {
     pieces: usize,
     /// Bodies that rest at the end.
     resting: usize,
-    /// How deep one that rests is in the ground or in another at most [m], and how many are deeper than 2 mm.
+    /// How deep one that rests is in the ground or in another at most [m].
     deepest: f64,
-    deep: usize,
     /// By how much energy rose at most over what it had come down to, as a part of what there was first.
     rise: f64,
     lost: usize,
@@ -160,7 +159,6 @@ fn outcome(seed: u64) -> Outcome {
         let others = (0..rubble.states.len()).filter(|&j| j != i && !rubble.gone[j]);
         others.map(|j| rubble.inside(i, j)).fold(rubble.sunk(i), f64::max)
     };
-    let depths: Vec<f64> = resting.iter().map(depth).collect();
     let lost = |&i: &usize| {
         let state = &rubble.states[i];
         !state.position.is_finite()
@@ -170,8 +168,7 @@ fn outcome(seed: u64) -> Outcome {
     Outcome {
         pieces: rubble.states.len(),
         resting: resting.len(),
-        deepest: depths.iter().copied().fold(0.0, f64::max),
-        deep: depths.iter().filter(|&&d| d > 2e-3).count(),
+        deepest: resting.iter().map(depth).fold(0.0, f64::max),
         rise,
         lost: rubble.free().filter(lost).count()
             + rubble.states.iter().filter(|s| !s.position.is_finite()).count(),
@@ -184,11 +181,10 @@ fn whatever_is_thrown_lies_on_the_ground_in_the_end() {
         (0..cases(150)).into_par_iter().map(|seed| (seed, outcome(seed))).collect();
     let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, o)| of(o)).sum::<usize>();
     println!(
-        "{} scenes: {} bodies, {} at rest, {} deeper than 2 mm, {} lost",
+        "{} scenes: {} bodies, {} at rest, {} lost",
         outcomes.len(),
         sum(|o| o.pieces),
         sum(|o| o.resting),
-        sum(|o| o.deep),
         sum(|o| o.lost)
     );
     for (what, of) in [("depth", (|o| o.deepest) as fn(&Outcome) -> f64), ("rise", |o| o.rise)] {
@@ -197,14 +193,11 @@ fn whatever_is_thrown_lies_on_the_ground_in_the_end() {
         println!("largest {what} (with its scene): {:?}", &order[..order.len().min(8)]);
     }
     assert_eq!(sum(|o| o.lost), 0);
-    // One in 700 ends deeper: a face of many corners that stands steeply dips in beside the four points that are kept of it.
-    assert!(100 * sum(|o| o.deep) <= 2 * sum(|o| o.resting));
-    let rises = outcomes.iter().filter(|(_, o)| o.rise > 1e-2).count() as f64;
-    // One scene in twenty: where something heavy hits something light.
-    assert!(rises <= (0.08 * outcomes.len() as f64).max(1.0), "energy rises in {rises} scenes");
     for (seed, outcome) in &outcomes {
-        assert!(outcome.deepest < 0.1, "scene {seed}: {outcome:?}");
-        assert!(outcome.rise < 0.15, "scene {seed}: {outcome:?}");
+        // By the true outlines: collision shapes and contacts give way by about half of this.
+        assert!(outcome.deepest < 2e-3, "scene {seed}: {outcome:?}");
+        // A thousandth where bodies are driven out of what they overlap; ten times that was seen once in a thousand scenes.
+        assert!(outcome.rise < 1e-2, "scene {seed}: {outcome:?}");
     }
 }
 

@@ -336,8 +336,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 250, ..ProptestConfig::default() })]
 
     /// Boxes of any size thrown at each other from anywhere come down: none is lost, none ends in the ground or in another
-    /// by more than 2 mm, and energy never rises by more than a twelfth of what there was: a heavy box that hits a light
-    /// one gains some, since contacts are solved in a few sweeps. Most gain nothing; 7 % is the most that was seen.
+    /// by more than 2 mm, and energy never rises by more than a hundredth of what there was. Most gain nothing; 0.7 % is the
+    /// most that was seen, where one is driven out of what it overlapped.
     #[test]
     fn whatever_is_thrown_comes_to_lie_on_the_ground(
         boxes in prop::collection::vec(
@@ -359,7 +359,7 @@ proptest! {
         for _ in 0..(20.0 / STEP) as usize {
             yard.step(STEP);
             let now = yard.energy();
-            prop_assert!(now < before + 8e-2 * start, "{before} J rise to {now} J of {start}");
+            prop_assert!(now < before + 1e-2 * start, "{before} J rise to {now} J of {start}");
             before = before.min(now);
         }
         // Nearly all sleep by then; one that rocks in a pile may not yet, but hardly moves.

@@ -7,7 +7,7 @@ const FLAT: f64 = 1e-7;
 /// Two planes are one where the sine of the angle between them is less than this.
 const SAME: f64 = 1e-6;
 /// How often the place where an edge is deepest is narrowed down, to two thirds each time.
-const NARROWINGS: usize = 16;
+const NARROWINGS: usize = 24;
 
 /// A convex solid, in the axes of its body.
 #[derive(Debug, Clone, Default)]
@@ -120,5 +120,81 @@ impl Convex {
             .into_iter()
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .expect("three")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn cube() -> Convex {
+        Convex::of_box(DVec3::ZERO, DVec3::splat(0.5))
+    }
+
+    #[test]
+    fn a_box_has_its_faces_and_edges() {
+        let solid = Convex::of_box(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 0.003));
+        assert_eq!((solid.faces.len(), solid.edges.len()), (6, 12));
+        // Euler: corners − edges + faces = 2, of a prism over seven corners as well.
+        let ring = |z: f64| (0..7).map(move |k| DVec3::new(f64::from(k).cos(), f64::from(k).sin(), z));
+        let prism = Convex::hull_of(&ring(0.0).chain(ring(0.01)).collect::<Vec<_>>());
+        assert_eq!((prism.faces.len(), prism.edges.len()), (9, 21));
+    }
+
+    #[test]
+    fn a_corner_in_the_ground_is_as_deep_as_it_is() {
+        let turn = DQuat::from_rotation_arc(DVec3::splat(1.0).normalize(), DVec3::NEG_Y);
+        // The cube stands on its corner, 2 mm in the ground: seen from its axes, the ground lies aslant.
+        let shift = turn.conjugate() * DVec3::NEG_Y * (0.75_f64.sqrt() - 2e-3);
+        let (point, depth) = cube()
+            .deepest_in(&Convex::below(0.0), turn.conjugate(), shift, 1e-3)
+            .expect("it is in the ground");
+        assert!((depth - 2e-3).abs() < 1e-12 && point.distance(DVec3::splat(0.5)) < 1e-12, "{point} {depth}");
+        assert_eq!(cube().deepest_in(&Convex::below(0.0), turn.conjugate(), shift, 3e-3), None);
+    }
+
+    /// Bars that cross have no corner in each other: each is deepest in the middle of an edge.
+    #[test]
+    fn an_edge_across_another_body_is_deepest_between_its_ends() {
+        let bar = Convex::of_box(DVec3::ZERO, DVec3::new(1.0, 0.1, 0.1));
+        let shift = DVec3::new(0.1, 0.19, 0.0);
+        let (point, depth) =
+            bar.deepest_in(&bar, DQuat::from_rotation_y(1.57), shift, 1e-3).expect("they cross");
+        assert!((depth - 0.01).abs() < 1e-3 && (point.y - 0.1).abs() < 1e-12, "{point} {depth}");
+        assert!(point.x.abs() < 0.9, "{point}");
+    }
+
+    proptest! {
+        /// Beside 400 points of every edge of one random hull, each looked for in the other.
+        #[test]
+        fn the_deepest_point_is_that_of_a_search(
+            points in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 8..16),
+            others in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 8..16),
+            axis in prop::array::uniform3(-1.0..1.0_f64), angle in -3.0..3.0_f64,
+            shift in prop::array::uniform3(-1.0..1.0_f64),
+        ) {
+            let solid = |points: Vec<[f64; 3]>| Convex::hull_of(&points.into_iter().map(DVec3::from).collect::<Vec<_>>());
+            let (one, other) = (solid(points), solid(others));
+            prop_assume!(DVec3::from(axis).length() > 0.1);
+            let turn = DQuat::from_axis_angle(DVec3::from(axis).normalize(), angle);
+            let shift = DVec3::from(shift);
+            let depth = |p: DVec3| {
+                let there = turn.conjugate() * (p - shift);
+                other.faces.iter().map(|face| face.depth(there)).fold(f64::INFINITY, f64::min)
+            };
+            let searched = one.edges.iter().flat_map(|&[a, b]| (0..=400).map(move |k| a.lerp(b, f64::from(k) / 400.0)));
+            let searched = searched.map(depth).fold(f64::NEG_INFINITY, f64::max);
+            let found = one.deepest_in(&other, turn, shift, 1e-3);
+            // Between two of those points an edge, of 3.5 at most, gets deeper by less than 0.0044.
+            match found {
+                Some((point, at)) => {
+                    prop_assert!((depth(point) - at).abs() < 1e-12);
+                    prop_assert!(at > searched - 1e-2 && at < searched + 5e-3, "{} beside {}", at, searched);
+                }
+                None => prop_assert!(searched <= 1e-3),
+            }
+        }
     }
 }

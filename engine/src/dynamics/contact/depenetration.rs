@@ -21,7 +21,7 @@ const SLOW: f64 = 0.3;
 /// See [`SLOW`] [s]. Pieces that are let go overlap a little, and come apart by themselves.
 const DELAY: f64 = 0.2;
 /// One faster than this has its own mass [m/s].
-pub const FAST: f64 = 0.6;
+const FAST: f64 = 0.6;
 /// Time between two looks at a body's contacts [s]; a contact gives way within a few hundredths of a second.
 const PERIOD: f64 = 0.02;
 /// The largest mass, in its own [1].
@@ -62,15 +62,14 @@ impl Depenetration {
         Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false, shifts: 0 }
     }
 
-    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns whether it was time
-    /// to look at the body's contacts.
-    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) -> bool {
+    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
+    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
         if speed > FAST && self.factor > 1.0 {
             change_mass(world, id, 1.0 / self.factor);
             self.factor = 1.0;
         }
         if !self.is_due(speed, dt) {
-            return false;
+            return;
         }
         let grip = grip(world, id);
         let locked = matches!(grip, Grip::Locked(_));
@@ -93,7 +92,6 @@ impl Depenetration {
                 world.set_body_transform(id, single(at), rotation).expect(SOUND);
             }
         }
-        true
     }
 
     /// Whether the body had locked with another at the last look.

@@ -61,7 +61,7 @@ impl Energy {
 }
 
 /// Which part of its gain each body that gained gives back, so that all together have no more than before.
-pub fn excess(changes: impl Iterator<Item = Change>) -> f64 {
+pub fn part_to_give_back(changes: impl Iterator<Item = Change>) -> f64 {
     let (mut sum, mut gains, mut rounding) = (0.0, 0.0, 0.0);
     for Change { gain, kinetic, mass } in changes {
         sum += gain;
@@ -69,4 +69,46 @@ pub fn excess(changes: impl Iterator<Item = Change>) -> f64 {
         rounding += ROUNDING.0 * kinetic + ROUNDING.1 * mass;
     }
     if sum > rounding { sum / gains } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loading::Resistance;
+
+    #[test]
+    fn what_falls_or_spins_freely_gains_nothing() {
+        let state = RigidBody {
+            position: DVec3::Y,
+            world_from_principal: DQuat::from_rotation_x(0.3),
+            velocity: DVec3::new(1.0, -2.0, 0.0),
+            angular_momentum: DVec3::new(0.1, 0.2, 0.3),
+            inverse_mass: 0.5,
+            inverse_moments: DVec3::new(10.0, 20.0, 0.0),
+            resistance: Resistance::new(DVec3::ONE, 1.0, None, 2.0),
+            reach: 1.0,
+        };
+        let mut energy = Energy::of(&state);
+        // 0.1 s later in free fall, turned about its own axis by any angle.
+        let (v, t) = (state.velocity, 0.1);
+        let position = state.position + v * t - DVec3::Y * 0.5 * GRAVITY * t * t;
+        let fallen = v - DVec3::Y * GRAVITY * t;
+        let change = energy.look(position, state.world_from_principal, fallen, state.angular_velocity());
+        assert!(change.gain.abs() < 1e-12, "{change:?}");
+        let own = state.angular_momentum * state.inverse_moments;
+        let kinetic = fallen.length_squared() + 0.5 * own.dot(state.angular_momentum);
+        assert!((change.kinetic - kinetic).abs() < 1e-12, "{change:?} {kinetic}");
+    }
+
+    #[test]
+    fn gains_are_given_back_in_proportion_until_nothing_is_gained() {
+        let change = |gain: f64| Change { gain, kinetic: 10.0, mass: 1.0 };
+        // One loses 1 J, two gain 3 J: all together have 2 J too much, two thirds of what was gained.
+        let part = part_to_give_back([-1.0, 1.0, 2.0].map(change).into_iter());
+        assert!((part - 2.0 / 3.0).abs() < 1e-12);
+        assert_eq!(part_to_give_back([-2.0, 1.5].map(change).into_iter()), 0.0);
+        // Rounding.
+        assert_eq!(part_to_give_back([1e-4, 0.0].map(change).into_iter()), 0.0);
+        assert_eq!(part_to_give_back(std::iter::empty()), 0.0);
+    }
 }

@@ -99,7 +99,7 @@ mod tests {
 
     /// Whatever mass and moments a body has beside whatever else, single precision holds them and what comes of them.
     #[test]
-    fn no_massand_no_moments_overflow() {
+    fn no_mass_and_no_moments_overflow() {
         let sizes = [1e-6, 1e-3, 0.1, 10.0, 1e3];
         let masses = [1e-12, 1e-6, 1.0, 1e9];
         let moments = [0.0, 1e-30, 1e-18, 1e-6, 1.0, 1e12, f64::INFINITY, f64::NAN];

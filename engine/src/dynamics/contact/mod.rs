@@ -216,7 +216,7 @@ impl ContactWorld {
             standstills,
             depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
             energies: vec![Energy::default(); bodies.len()],
-            studs: vec![Studs::default(); bodies.len()],
+            studs: vec![Studs::none(); bodies.len()],
             solids: vec![OnceCell::new(); bodies.len()],
             ground,
             bodies,
@@ -394,7 +394,7 @@ impl ContactWorld {
 
     /// Slows the bodies that gained energy in a step in which all together did.
     fn give_energy_back(&mut self) {
-        let part = energy::excess(self.steps.iter().map(|step| step.change));
+        let part = energy::part_to_give_back(self.steps.iter().map(|step| step.change));
         if part.is_nan() || part <= 0.0 {
             return;
         }
@@ -424,10 +424,11 @@ impl ContactWorld {
             self.world.set_body_sleep_threshold(id, threshold).expect(SOUND);
         }
         let speed = step.velocity.length() + step.spin.length() * standstill.reach();
-        let looked = self.depenetrations[index].watch(&mut self.world, id, speed, dt);
-        if speed > studs::FAST || self.depenetrations[index].is_locked() {
+        self.depenetrations[index].watch(&mut self.world, id, speed, dt);
+        let due = self.studs[index].is_due(&mut self.world, speed, dt);
+        if self.depenetrations[index].is_locked() {
             self.studs[index].remove(&mut self.world);
-        } else if looked || step.asleep {
+        } else if due || step.asleep {
             self.put_studs(index, id);
         }
     }

@@ -1,8 +1,8 @@
 //! Studs: tiny balls on a body's edges that hold it where the library's contacts let it sink.
 //!
 //! Box3D keeps four points of the faces with which two shapes touch, chosen by the area between them. A face of more
-//! corners that stands steeply on another dips in beside those four. So where a body that hardly moves is deep in another,
-//! the deepest point of its edges gets a stud, which is a contact of its own. They go as soon as the body moves: a shape as
+//! corners that stands steeply on another dips in beside those four. So where a body that lies or slides is deep in another,
+//! the deepest point of its edges gets a stud, which is a contact of its own. They go as soon as the body flies: a shape as
 //! small would have its motion followed continuously at every step.
 
 use boxddd::{BodyId, Filter, QueryFilter, ShapeDef, ShapeId, Sphere, World};
@@ -12,8 +12,12 @@ use super::{SOUND, single};
 
 /// How deep an edge may be in another body before it gets a stud [m].
 pub const DEPTH: f64 = 5e-4;
-/// A body faster than this loses its studs [m/s]. One that comes out of another is slower.
-pub const FAST: f64 = 2.0;
+/// A body faster than this loses its studs [m/s]: it flies or tumbles.
+const FAST: f64 = 2.0;
+/// One that has been slower for so long is looked at [s].
+const DELAY: f64 = 0.1;
+/// Time between two looks [s].
+const PERIOD: f64 = 0.02;
 /// A stud's radius [m].
 const RADIUS: f32 = 1e-4;
 /// No two studs are nearer than this [m].
@@ -24,29 +28,54 @@ const MOST: usize = 24;
 const CATEGORY: u64 = 8;
 
 /// The studs of one body: where they are, in its principal axes [m], and their shapes.
-#[derive(Debug, Clone, Default)]
-pub struct Studs(Vec<(DVec3, ShapeId)>);
+#[derive(Debug, Clone)]
+pub struct Studs {
+    all: Vec<(DVec3, ShapeId)>,
+    /// Time until the next look [s].
+    wait: f64,
+}
 
 impl Studs {
+    /// A body without studs.
+    pub fn none() -> Self {
+        Self { all: Vec::new(), wait: DELAY }
+    }
+
+    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns whether it is time
+    /// to look where it is deep in others.
+    pub fn is_due(&mut self, world: &mut World, speed: f64, dt: f64) -> bool {
+        if speed > FAST {
+            self.wait = DELAY;
+            self.remove(world);
+            return false;
+        }
+        self.wait -= dt;
+        let due = self.wait <= 0.0;
+        if due {
+            self.wait = PERIOD;
+        }
+        due
+    }
+
     /// Puts a stud on a body, unless there is one already, and wakes it.
     pub fn add(&mut self, world: &mut World, id: BodyId, point: DVec3, surface: &ShapeDef) {
-        if self.0.len() < MOST && self.0.iter().all(|(other, _)| other.distance(point) >= APART) {
+        if self.all.len() < MOST && self.all.iter().all(|(other, _)| other.distance(point) >= APART) {
             let ball = Sphere::new(single(point), RADIUS);
-            self.0.push((point, world.create_sphere_shape(id, surface, &ball).expect(SOUND)));
+            self.all.push((point, world.create_sphere_shape(id, surface, &ball).expect(SOUND)));
             world.set_body_awake(id, true).expect(SOUND);
         }
     }
 
     /// Takes all of them off.
     pub fn remove(&mut self, world: &mut World) {
-        for (_, shape) in self.0.drain(..) {
+        for (_, shape) in self.all.drain(..) {
             world.destroy_shape(shape, false).expect(SOUND);
         }
     }
 
     /// Forgets them, where the body is gone.
     pub fn forget(&mut self) {
-        self.0.clear();
+        self.all.clear();
     }
 }
 
