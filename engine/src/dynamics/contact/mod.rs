@@ -349,7 +349,7 @@ impl ContactWorld {
         let (velocity, spin) = (capped_velocity(state), capped_spin(state));
         self.world.set_body_linear_velocity(id, single(velocity)).expect(SOUND);
         self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
-        self.energies[index].look(state.position, state.world_from_principal, velocity, spin);
+        self.energies[index].look(state.position, state.world_from_principal, velocity, spin, 0.0);
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
@@ -359,8 +359,8 @@ impl ContactWorld {
         let substeps = libm::ceil(dt / SUBSTEP - 1e-9).max(1.0) as i32;
         self.world.step(dt as f32, substeps).expect(SOUND);
         self.bonds.yield_where_overloaded(&mut self.world);
-        self.hear();
-        self.give_energy_back();
+        self.hear(dt);
+        self.take_energy_back();
         let steps = std::mem::take(&mut self.steps);
         for step in &steps {
             self.settle(step, dt);
@@ -372,7 +372,7 @@ impl ContactWorld {
     }
 
     /// Takes in what has become of the bodies that were awake in a step.
-    fn hear(&mut self) {
+    fn hear(&mut self, dt: f64) {
         self.world.body_events_into(&mut self.events).expect(SOUND);
         self.steps.clear();
         for event in &self.events {
@@ -386,29 +386,22 @@ impl ContactWorld {
                 spin = spin.clamp_length_max(FASTEST_TURN);
                 self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
             }
-            let change = self.energies[index].look(position, rotation, velocity, spin);
+            let change = self.energies[index].look(position, rotation, velocity, spin, dt);
             let asleep = event.fell_asleep;
             self.steps.push(Step { index, id, asleep, position, rotation, velocity, spin, change });
         }
     }
 
-    /// Slows the bodies that gained energy in a step in which all together did.
-    fn give_energy_back(&mut self) {
-        let part = energy::part_to_give_back(self.steps.iter().map(|step| step.change));
-        if part.is_nan() || part <= 0.0 {
+    /// Takes back a part of what contacts have done in a step that made energy.
+    fn take_energy_back(&mut self) {
+        let part = energy::part_to_take_back(self.steps.iter().map(|step| step.change));
+        if part <= 0.0 {
             return;
         }
-        for step in &mut self.steps {
-            let Change { gain, kinetic, .. } = step.change;
-            if gain <= 0.0 || kinetic <= 0.0 || step.asleep {
-                continue;
-            }
-            let back = (part * gain).min(kinetic);
-            let scale = libm::sqrt(1.0 - back / kinetic);
-            (step.velocity, step.spin) = (step.velocity * scale, step.spin * scale);
+        for step in self.steps.iter_mut().filter(|step| !step.asleep) {
+            (step.velocity, step.spin) = self.energies[step.index].take_back(&step.change, part);
             self.world.set_body_linear_velocity(step.id, single(step.velocity)).expect(SOUND);
             self.world.set_body_angular_velocity(step.id, single(step.spin)).expect(SOUND);
-            self.energies[step.index].give_back(back);
         }
     }
 
