@@ -16,6 +16,7 @@ mod energy;
 mod hull;
 mod mass;
 mod mortar;
+mod rolling;
 mod shape;
 mod standstill;
 mod studs;
@@ -37,6 +38,7 @@ use energy::{Change, Energy};
 use mass::{gain, mass_data};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
+use rolling::Rolling;
 pub use shape::CollisionShape;
 use standstill::Standstill;
 use studs::Studs;
@@ -147,6 +149,7 @@ pub struct ContactWorld {
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
     standstills: Vec<Standstill>,
+    rollings: Vec<Rolling>,
     depenetrations: Vec<Depenetration>,
     studs: Vec<Studs>,
     /// What the bodies are made of, known of those that were deep in others.
@@ -214,6 +217,7 @@ impl ContactWorld {
             ids,
             index: HashMap::new(),
             standstills,
+            rollings: vec![Rolling::default(); bodies.len()],
             depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
             energies: vec![Energy::default(); bodies.len()],
             studs: vec![Studs::none(); bodies.len()],
@@ -417,6 +421,7 @@ impl ContactWorld {
             self.world.set_body_sleep_threshold(id, threshold).expect(SOUND);
         }
         let speed = step.velocity.length() + step.spin.length() * standstill.reach();
+        self.rollings[index].watch(&mut self.world, id, speed, dt);
         self.depenetrations[index].watch(&mut self.world, id, speed, dt);
         let due = self.studs[index].is_due(&mut self.world, speed, dt);
         if self.depenetrations[index].is_locked() {
