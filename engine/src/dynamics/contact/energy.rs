@@ -13,7 +13,7 @@ use crate::dynamics::{GRAVITY, RigidBody};
 
 /// All energy may rise by this part of the kinetic energy in a step [1], and by this much a kilogram [J/kg]: places and
 /// velocities are single numbers.
-const ROUNDING: (f64, f64) = (1e-5, 1e-5);
+const ROUNDING: (f64, f64) = (1e-6, 1e-7);
 
 /// A body's mass and moments of inertia, and what was known of it when it was last looked at.
 #[derive(Debug, Clone, Copy, Default)]

@@ -436,13 +436,14 @@ impl ContactWorld {
         let (place, turn) = pose_of(&self.world, id);
         let body = &self.bodies[index];
         let surface = surface(body.friction, studs::filter(body.passes.filter()));
+        let depth = studs::depth(self.rollings[index].time());
         for other in studs::near(&self.world, id, body.passes.filter()) {
             let (there, turned) = pose_of(&self.world, other);
             let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));
             let Some(others) = self.solids_of(other) else { continue };
             let own = self.solids[index].get_or_init(|| solids(&body.shape));
             let deepest = own.iter().flat_map(|part| {
-                others.iter().filter_map(|other| part.deepest_in(other, relative, shift, studs::DEPTH))
+                others.iter().filter_map(|other| part.deepest_in(other, relative, shift, depth))
             });
             if let Some((point, _)) = deepest.max_by(|a, b| a.1.total_cmp(&b.1)) {
                 self.studs[index].add(&mut self.world, id, point, &surface);

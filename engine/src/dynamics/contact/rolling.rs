@@ -25,6 +25,11 @@ pub struct Rolling {
 }
 
 impl Rolling {
+    /// For how long the body has been slow [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
     pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
         self.time = if speed > SLOW { 0.0 } else { self.time + dt };

@@ -10,8 +10,10 @@ use glam::DVec3;
 
 use super::{SOUND, single};
 
-/// How deep an edge may be in another body before it gets a stud [m].
-pub const DEPTH: f64 = 5e-4;
+/// How deep an edge may be in another body before it gets a stud [m]; and of one that does not come to rest for so long [s]
+/// although it is slow: such a one rocks on the points that change.
+const DEPTH: f64 = 5e-4;
+const LATER: (f64, f64) = (0.7, 1e-4);
 /// A body faster than this loses its studs [m/s]: it flies or tumbles.
 const FAST: f64 = 2.0;
 /// One that has been slower for so long is looked at [s].
@@ -77,6 +79,11 @@ impl Studs {
     pub fn forget(&mut self) {
         self.all.clear();
     }
+}
+
+/// How deep an edge of a body may be in another before it gets a stud [m], where it has been slow for so long [s].
+pub fn depth(time: f64) -> f64 {
+    if time > LATER.0 { LATER.1 } else { DEPTH }
 }
 
 /// What the studs of a body meet that meets others by this filter.
