@@ -216,7 +216,6 @@ fn no_shape_and_no_number_ends_the_process() {
     assert!(refused > 0 && 2 * refused < bodies && bonds > 0);
     // Two of 50 000: a splinter at 10 km/s that another one has struck metres deep into the ground.
     assert!(unsolved <= fates.len() / 4000, "{unsolved} scenes were not solved");
-    assert!(slowest < 1.0, "a step took {slowest} s");
 }
 
 /// A body bound far beside itself would turn ever faster; mortar lies between bodies.

@@ -11,11 +11,9 @@ use glass::{pane, spin};
 use proptest::prelude::*;
 
 /// A thousand shards thrown flat and down, up to three times as fast as glass breaks at: none ends below the floor, and
-/// none in it by more than four millimetres, and all but one in 200 by less than two. (The lightest shards under a heap give way
-/// most: the stiffness of a contact goes with the mass of the lighter body.)
+/// none that rests in it by more than two millimetres.
 #[test]
 fn no_shard_goes_through_the_floor_at_any_speed() {
-    let (mut all, mut all_deep) = (0, 0);
     for (count, thickness, velocity) in [
         (1000, 0.004, DVec3::new(0.0, 0.0, 12.0)),
         (1000, 0.004, DVec3::new(0.0, -100.0, 30.0)),
@@ -38,13 +36,12 @@ fn no_shard_goes_through_the_floor_at_any_speed() {
         let resting = |&i: &usize| glass.states[i].velocity == DVec3::ZERO;
         let depths: Vec<f64> = (0..glass.states.len()).filter(resting).map(|i| -glass.lowest(i)).collect();
         let deepest = depths.iter().copied().fold(0.0, f64::max);
-        let deep = depths.iter().filter(|&&d| d > 2e-3).count();
         let below: Vec<DVec3> = (glass.states.iter())
             .filter(|s| s.position.y < 0.0 && s.position.length() < REACH)
             .map(|s| s.position)
             .collect();
         println!(
-            "{speed:.0} m/s: {} of {} at rest after {time:.1} s, {deep} deeper than 2 mm, deepest {:.2} mm, energy {:.3}",
+            "{speed:.0} m/s: {} of {} at rest after {time:.1} s, deepest {:.2} mm, energy {:.3}",
             depths.len(),
             glass.states.len(),
             1e3 * deepest,
@@ -52,11 +49,9 @@ fn no_shard_goes_through_the_floor_at_any_speed() {
         );
         assert!(glass.states.iter().all(|s| s.position.is_finite()));
         assert!(below.is_empty(), "at {speed} m/s these are below the floor: {below:?}");
-        assert!(deepest < 4e-3, "at {speed} m/s the deepest is {deepest} m in the floor");
-        (all, all_deep) = (all + depths.len(), all_deep + deep);
+        assert!(deepest < 2e-3, "at {speed} m/s the deepest is {deepest} m in the floor");
         assert!(highest < 1.01 * start, "at {speed} m/s energy rises to {} of itself", highest / start);
     }
-    assert!(200 * all_deep <= all, "{all_deep} of {all} lie deeper than 2 mm");
 }
 
 /// A pane that is in pieces and only let go falls as one: its pieces touch everywhere and gain nothing from that. What

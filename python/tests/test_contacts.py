@@ -53,16 +53,17 @@ def test_nothing_that_lies_still_looks_wrong(wall: br.Result) -> None:
 def test_glass_on_the_floor_looks_right() -> None:
     """All come to rest, and none jitters, pops or floats.
 
-    One in 50 at most sinks by more than a millimetre, none by five. Shards that cross edge on at
-    some metres a second may lock into each other: at most one in 200 does.
+    One in 150 at most is more than a millimetre in the ground for some frames before a stud holds
+    it, none by six. At most one pair in 200 stays crossed at the tips, by a lens of some 2 mm, or is
+    a splinter in the rebate, which is inside the frame's shape.
     """
     result = br.simulate(br.load(SCENES / "window_aftermath.toml"))
     found = faults(result)
     count = Counter(fault.kind for fault in found)
     assert not any("still move" in warning for warning in result.warnings)
     assert count["jitters"] == count["pops"] == count["floats"] == 0
-    assert 50 * count["sinks"] <= len(result.bodies)
-    assert all(fault.size < 5e-3 for fault in found if fault.kind == "sinks")
+    assert 150 * count["sinks"] <= len(result.bodies)
+    assert all(fault.size < 6e-3 for fault in found if fault.kind == "sinks")
     assert 200 * count["overlaps"] <= len(result.bodies)
 
 

@@ -19,7 +19,7 @@ const FAST: f64 = 2.0;
 /// One that has been slower for so long is looked at [s].
 const DELAY: f64 = 0.1;
 /// Time between two looks [s].
-const PERIOD: f64 = 0.02;
+const PERIOD: f64 = 0.04;
 /// A stud's radius [m].
 const RADIUS: f32 = 1e-4;
 /// No two studs are nearer than this [m].
