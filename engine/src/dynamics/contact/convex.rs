@@ -2,6 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
+use crate::geometry::bounds;
+
 /// Points off a plane by less than this part of the solid's extent lie in it.
 const FLAT: f64 = 1e-7;
 /// Two planes are one where the sine of the angle between them is less than this.
@@ -12,9 +14,13 @@ const NARROWINGS: usize = 24;
 /// A convex solid, in the axes of its body.
 #[derive(Debug, Clone, Default)]
 pub struct Convex {
+    /// [m].
+    corners: Vec<DVec3>,
     /// Both ends of every edge [m].
     edges: Vec<[DVec3; 2]>,
     faces: Vec<Face>,
+    /// Middle of a ball around it, and its radius [m]; infinite for the ground.
+    ball: (DVec3, f64),
 }
 
 /// A plane with the solid behind it.
@@ -36,7 +42,11 @@ impl Face {
 impl Convex {
     /// Everything below a height [m].
     pub fn below(height: f64) -> Self {
-        Self { edges: Vec::new(), faces: vec![Face { normal: DVec3::Y, offset: height }] }
+        Self {
+            faces: vec![Face { normal: DVec3::Y, offset: height }],
+            ball: (DVec3::ZERO, f64::INFINITY),
+            ..Self::default()
+        }
     }
 
     /// The hull of points [m], found by trying all planes through three of them: there are few, and each body is looked
@@ -69,7 +79,10 @@ impl Convex {
                 }
             }
         }
-        Self { edges, faces }
+        let (low, high) = bounds(points.iter().copied());
+        let middle = 0.5 * (low + high);
+        let radius = points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
+        Self { corners: points.to_vec(), edges, faces, ball: (middle, radius) }
     }
 
     /// A box with its middle and half edges [m].
@@ -86,7 +99,20 @@ impl Convex {
     /// solid's axes, with its depth below the nearest face. The other one is turned and then moved by `shift` from its
     /// axes into these.
     pub fn deepest_in(&self, other: &Convex, turn: DQuat, shift: DVec3, least: f64) -> Option<(DVec3, f64)> {
+        let apart = self.ball.0.distance(turn * other.ball.0 + shift);
+        if apart > self.ball.1 + other.ball.1 {
+            return None;
+        }
         let back = turn.conjugate();
+        // Most that are near each other lie on two sides of a face.
+        let beyond = |face: &Face| {
+            let face =
+                Face { normal: turn * face.normal, offset: face.offset + (turn * face.normal).dot(shift) };
+            self.corners.iter().all(|&p| face.depth(p) <= least)
+        };
+        if other.faces.iter().any(beyond) {
+            return None;
+        }
         let mut deepest: Option<(DVec3, f64)> = None;
         for &[a, b] in &self.edges {
             let least = deepest.map_or(least, |(_, depth)| depth);

@@ -423,7 +423,7 @@ impl ContactWorld {
         let speed = step.velocity.length() + step.spin.length() * standstill.reach();
         self.rollings[index].watch(&mut self.world, id, speed, dt);
         self.depenetrations[index].watch(&mut self.world, id, speed, dt);
-        let due = self.studs[index].is_due(&mut self.world, speed, dt);
+        let due = self.studs[index].is_due(&mut self.world, speed, still, dt);
         if self.depenetrations[index].is_locked() {
             self.studs[index].remove(&mut self.world);
         } else if due || step.asleep {
@@ -433,10 +433,12 @@ impl ContactWorld {
 
     /// Puts studs on a body where it is deepest in each of those about it.
     fn put_studs(&mut self, index: usize, id: BodyId) {
+        self.studs[index].prune(&mut self.world, id);
         let (place, turn) = pose_of(&self.world, id);
         let body = &self.bodies[index];
         let surface = surface(body.friction, studs::filter(body.passes.filter()));
-        let depth = studs::depth(self.rollings[index].time());
+        let rocks = self.rollings[index].time() > studs::LATER && !self.standstills[index].holds();
+        let depth = if rocks { studs::FINE } else { studs::DEPTH };
         for other in studs::near(&self.world, id, body.passes.filter()) {
             let (there, turned) = pose_of(&self.world, other);
             let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));

@@ -10,22 +10,25 @@ use glam::DVec3;
 
 use super::{SOUND, single};
 
-/// How deep an edge may be in another body before it gets a stud [m]; and of one that does not come to rest for so long [s]
-/// although it is slow: such a one rocks on the points that change.
-const DEPTH: f64 = 5e-4;
-const LATER: (f64, f64) = (0.7, 1e-4);
+/// How deep an edge may be in another body before it gets a stud [m].
+pub const DEPTH: f64 = 8e-4;
+/// The same where a body has been slow for [`LATER`] and still gets about [m]: it rocks on points that change.
+pub const FINE: f64 = 1e-4;
+/// See [`FINE`] [s].
+pub const LATER: f64 = 0.9;
 /// A body faster than this loses its studs [m/s]: it flies or tumbles.
 const FAST: f64 = 2.0;
 /// One that has been slower for so long is looked at [s].
 const DELAY: f64 = 0.1;
-/// Time between two looks [s].
+/// Time between two looks at a body, and at one that is still [s].
 const PERIOD: f64 = 0.04;
+const STILL_PERIOD: f64 = 0.15;
 /// A stud's radius [m].
 const RADIUS: f32 = 1e-4;
 /// No two studs are nearer than this [m].
 const APART: f64 = 2e-3;
 /// Most studs of a body.
-const MOST: usize = 24;
+const MOST: usize = 8;
 /// What studs are to other shapes: they meet each other nowhere.
 const CATEGORY: u64 = 8;
 
@@ -45,7 +48,8 @@ impl Studs {
 
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns whether it is time
     /// to look where it is deep in others.
-    pub fn is_due(&mut self, world: &mut World, speed: f64, dt: f64) -> bool {
+    /// A body that is `still` changes little.
+    pub fn is_due(&mut self, world: &mut World, speed: f64, still: bool, dt: f64) -> bool {
         if speed > FAST {
             self.wait = DELAY;
             self.remove(world);
@@ -54,7 +58,7 @@ impl Studs {
         self.wait -= dt;
         let due = self.wait <= 0.0;
         if due {
-            self.wait = PERIOD;
+            self.wait = if still { STILL_PERIOD } else { PERIOD };
         }
         due
     }
@@ -68,6 +72,22 @@ impl Studs {
         }
     }
 
+    /// Takes those off that touch nothing.
+    pub fn prune(&mut self, world: &mut World, id: BodyId) {
+        if self.all.is_empty() {
+            return;
+        }
+        let contacts = world.body_contacts(id).expect(SOUND);
+        self.all.retain(|&(_, stud)| {
+            let touches =
+                contacts.iter().any(|contact| contact.shape_id_a == stud || contact.shape_id_b == stud);
+            if !touches {
+                world.destroy_shape(stud, false).expect(SOUND);
+            }
+            touches
+        });
+    }
+
     /// Takes all of them off.
     pub fn remove(&mut self, world: &mut World) {
         for (_, shape) in self.all.drain(..) {
@@ -79,11 +99,6 @@ impl Studs {
     pub fn forget(&mut self) {
         self.all.clear();
     }
-}
-
-/// How deep an edge of a body may be in another before it gets a stud [m], where it has been slow for so long [s].
-pub fn depth(time: f64) -> f64 {
-    if time > LATER.0 { LATER.1 } else { DEPTH }
 }
 
 /// What the studs of a body meet that meets others by this filter.
