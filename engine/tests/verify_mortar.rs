@@ -4,7 +4,7 @@ mod wall;
 
 use brisance_engine::charge::Charge;
 use brisance_engine::dynamics::contact::{
-    Bond, CollisionShape, ContactBody, ContactWorld, Mortar, Passes, bonds_of_bricks,
+    Bond, CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Mortar, Passes, bonds_of_bricks,
 };
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::loading::Resistance;
@@ -44,8 +44,8 @@ fn row(places: &[DVec3], mortar: Mortar) -> (ContactWorld, Vec<Bond>) {
 }
 
 fn hold(world: &mut ContactWorld) -> usize {
-    for _ in 0..240 {
-        world.step(1.0 / 240.0, |_, _, _, _, _| {});
+    for _ in 0..(1.0 / LONGEST_STEP) as usize {
+        world.step(LONGEST_STEP, |_, _, _, _, _| {});
     }
     world.bonds()
 }

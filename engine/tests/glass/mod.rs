@@ -4,7 +4,7 @@
 #[path = "../following/mod.rs"]
 mod following;
 
-use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, Passes};
+use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes};
 use brisance_engine::dynamics::ground::Ground;
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
 use brisance_engine::fracture::{Fineness, Pieces, Recipe};
@@ -139,8 +139,8 @@ pub fn drop_onto_ground(shape: CollisionShape, outline: &Polygon, thickness: f64
     let mut world = ContactWorld::new(vec![body], Some(Ground { height: 0.0, friction: 0.5 }), DVec3::ZERO);
     world.join(0, &state, true);
     let mut glass = Glass { world, states: vec![state], corners: vec![corners], shapes };
-    for _ in 0..700 {
-        glass.step(1.0 / 240.0);
+    for _ in 0..(3.0 / LONGEST_STEP) as usize {
+        glass.step(LONGEST_STEP);
     }
     glass.lowest(0)
 }
