@@ -23,6 +23,14 @@ pub struct Convex {
     ball: (DVec3, f64),
 }
 
+/// The corners of a box with this middle and these half edges [m].
+pub fn box_corners(middle: DVec3, half: DVec3) -> [DVec3; 8] {
+    std::array::from_fn(|code| {
+        let sign = |bit: usize| if code >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        middle + half * DVec3::new(sign(0), sign(1), sign(2))
+    })
+}
+
 /// A plane with the solid behind it.
 #[derive(Debug, Clone, Copy)]
 struct Face {
@@ -49,8 +57,8 @@ impl Convex {
         }
     }
 
-    /// The hull of points [m], found by trying all planes through three of them: there are few, and each body is looked
-    /// at once. The points must not lie in a plane.
+    /// The hull of points [m], found by trying all planes through three of them: there are few, and it is done once a
+    /// body. The points must not lie in a plane.
     pub fn hull_of(points: &[DVec3]) -> Self {
         let extent = points.iter().map(|p| p.length()).fold(0.0, f64::max);
         let tolerance = FLAT * extent;
@@ -83,16 +91,6 @@ impl Convex {
         let middle = 0.5 * (low + high);
         let radius = points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max);
         Self { corners: points.to_vec(), edges, faces, ball: (middle, radius) }
-    }
-
-    /// A box with its middle and half edges [m].
-    pub fn of_box(middle: DVec3, half: DVec3) -> Self {
-        let corner = |code: usize| {
-            let sign = |bit: usize| if code >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            middle + half * DVec3::new(sign(0), sign(1), sign(2))
-        };
-        let corners: Vec<DVec3> = (0..8).map(corner).collect();
-        Self::hull_of(&corners)
     }
 
     /// The point of this solid's edges that is deepest in another one, where that is deeper than `least` [m]: in this
@@ -156,12 +154,12 @@ mod tests {
     use super::*;
 
     fn cube() -> Convex {
-        Convex::of_box(DVec3::ZERO, DVec3::splat(0.5))
+        Convex::hull_of(&box_corners(DVec3::ZERO, DVec3::splat(0.5)))
     }
 
     #[test]
     fn a_box_has_its_faces_and_edges() {
-        let solid = Convex::of_box(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 0.003));
+        let solid = Convex::hull_of(&box_corners(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 0.003)));
         assert_eq!((solid.faces.len(), solid.edges.len()), (6, 12));
         // Euler: corners − edges + faces = 2, of a prism over seven corners as well.
         let ring = |z: f64| (0..7).map(move |k| DVec3::new(f64::from(k).cos(), f64::from(k).sin(), z));
@@ -184,7 +182,7 @@ mod tests {
     /// Bars that cross have no corner in each other: each is deepest in the middle of an edge.
     #[test]
     fn an_edge_across_another_body_is_deepest_between_its_ends() {
-        let bar = Convex::of_box(DVec3::ZERO, DVec3::new(1.0, 0.1, 0.1));
+        let bar = Convex::hull_of(&box_corners(DVec3::ZERO, DVec3::new(1.0, 0.1, 0.1)));
         let shift = DVec3::new(0.1, 0.19, 0.0);
         let (point, depth) =
             bar.deepest_in(&bar, DQuat::from_rotation_y(1.57), shift, 1e-3).expect("they cross");

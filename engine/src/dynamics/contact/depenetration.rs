@@ -62,14 +62,15 @@ impl Depenetration {
         Self { factor: 1.0, most: most.min(MOST) as f32, wait: DELAY, locked: false, shifts: 0 }
     }
 
-    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s].
-    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) {
+    /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns by how
+    /// much it has lifted the body [m].
+    pub fn watch(&mut self, world: &mut World, id: BodyId, speed: f64, dt: f64) -> f64 {
         if speed > FAST && self.factor > 1.0 {
             change_mass(world, id, 1.0 / self.factor);
             self.factor = 1.0;
         }
         if !self.is_due(speed, dt) {
-            return;
+            return 0.0;
         }
         let grip = grip(world, id);
         let locked = matches!(grip, Grip::Locked(_));
@@ -87,11 +88,15 @@ impl Depenetration {
             }
             Grip::Locked(shift) => {
                 self.shifts = (self.shifts + 1).min(MOST_PARTS);
-                let at = pose_of(world, id).0 + f64::from(self.shifts) * shift;
+                // Never down: there may be the ground, and the other one goes up.
+                let shift = f64::from(self.shifts) * DVec3::new(shift.x, shift.y.max(0.0), shift.z);
+                let at = pose_of(world, id).0 + shift;
                 let rotation = world.body_rotation(id).expect(SOUND);
                 world.set_body_transform(id, single(at), rotation).expect(SOUND);
+                return shift.y;
             }
         }
+        0.0
     }
 
     /// Whether the body had locked with another at the last look.

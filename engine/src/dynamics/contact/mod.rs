@@ -16,7 +16,7 @@ mod energy;
 mod hull;
 mod mass;
 mod mortar;
-mod rolling;
+mod rocking;
 mod shape;
 mod standstill;
 mod studs;
@@ -38,7 +38,7 @@ use energy::{Change, Energy};
 use mass::{gain, mass_data};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
-use rolling::Rolling;
+use rocking::Rocking;
 pub use shape::CollisionShape;
 use standstill::Standstill;
 use studs::Studs;
@@ -149,10 +149,12 @@ pub struct ContactWorld {
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
     standstills: Vec<Standstill>,
-    rollings: Vec<Rolling>,
+    rockings: Vec<Rocking>,
     depenetrations: Vec<Depenetration>,
     studs: Vec<Studs>,
-    /// What the bodies are made of, known of those that were deep in others.
+    /// The corners of each body's hulls as Box3D has them [m], and the solids that these are: found for bodies that come
+    /// near another while they are slow.
+    corners: Vec<Vec<Vec<DVec3>>>,
     solids: Vec<OnceCell<Vec<Convex>>>,
     /// The ground's body, and what it is.
     ground: Option<(BodyId, Vec<Convex>)>,
@@ -217,10 +219,11 @@ impl ContactWorld {
             ids,
             index: HashMap::new(),
             standstills,
-            rollings: vec![Rolling::default(); bodies.len()],
+            rockings: vec![Rocking::default(); bodies.len()],
             depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
             energies: vec![Energy::default(); bodies.len()],
             studs: vec![Studs::none(); bodies.len()],
+            corners: vec![Vec::new(); bodies.len()],
             solids: vec![OnceCell::new(); bodies.len()],
             ground,
             bodies,
@@ -261,23 +264,26 @@ impl ContactWorld {
         }
         let id = self.world.create_body(def.build().expect(SOUND)).expect(SOUND);
         let surface = surface(body.friction, body.passes.filter());
-        let mut hulls = 0;
+        let mut corners = Vec::new();
         for placed in body.shape.parts().iter().filter_map(|points| hull::hull_of(points)) {
             let (place, scale) = (placed.place, placed.scale);
             self.world.create_transformed_hull_shape(id, &surface, &placed.hull, place, scale).expect(SOUND);
-            hulls += 1;
+            corners.push(placed.corners);
         }
-        if hulls == 0 {
+        if corners.is_empty() {
             let (middle, half) = body.shape.slab();
-            let half = single(half);
-            let slab = BoxHull::offset(half.x, half.y, half.z, single(middle)).expect(SOUND);
+            corners.push(convex::box_corners(middle, half).to_vec());
+            let (middle, half) = (single(middle), single(half));
+            let slab = BoxHull::offset(half.x, half.y, half.z, middle).expect(SOUND);
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
+        self.corners[index] = corners;
         if !body.anchored {
             let (mass, room) = mass_data(state, body.shape.reach(), self.gain);
             self.world.set_body_mass_data(id, mass).expect(SOUND);
             self.depenetrations[index] = Depenetration::up_to(room);
             self.energies[index] = Energy::of(state);
+            self.rebase(index, state);
         }
         self.ids[index] = Some(id);
         self.index.insert(id, index);
@@ -316,8 +322,8 @@ impl ContactWorld {
     /// Lets a body meet everything from now on but what it `passes`; what touches it wakes.
     pub fn pass(&mut self, index: usize, passes: Passes) {
         self.bodies[index].passes = passes;
-        self.studs[index].remove(&mut self.world);
         let Some(id) = self.ids[index] else { return };
+        self.studs[index].remove(&mut self.world, id);
         for shape in self.world.body_shapes(id).expect(SOUND) {
             self.world.set_shape_filter(shape, passes.filter(), true).expect(SOUND);
         }
@@ -353,7 +359,14 @@ impl ContactWorld {
         let (velocity, spin) = (capped_velocity(state), capped_spin(state));
         self.world.set_body_linear_velocity(id, single(velocity)).expect(SOUND);
         self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
-        self.energies[index].look(state.position, state.world_from_principal, velocity, spin, 0.0);
+        self.rebase(index, state);
+    }
+
+    /// Takes in the energy of a body that has got its velocities from outside.
+    fn rebase(&mut self, index: usize, state: &RigidBody) {
+        let place = state.position - self.origin;
+        let (velocity, spin) = (capped_velocity(state), capped_spin(state));
+        self.energies[index].look(place, state.world_from_principal, velocity, spin, 0.0);
     }
 
     /// A step of `dt` [s], at most [`LONGEST_STEP`]. Then `update` hears of every body that was awake in it: which one,
@@ -369,6 +382,8 @@ impl ContactWorld {
         for step in &steps {
             self.settle(step, dt);
             let Step { index, asleep, position, rotation, velocity, spin, .. } = *step;
+            // One that has just got a stud is awake again.
+            let asleep = asleep && !self.is_awake(index);
             let moved = Moved { index, asleep, still: self.standstills[index].holds() };
             update(moved, position, rotation, velocity, spin);
         }
@@ -383,14 +398,15 @@ impl ContactWorld {
             let id = event.body_id;
             let Some(&index) = self.index.get(&id) else { continue };
             let (place, rotation) = pose(&event.transform);
-            let (position, rotation) = (place + self.origin, rotation.normalize());
+            let rotation = rotation.normalize();
+            let position = place + self.origin;
             let velocity = double(self.world.body_linear_velocity(id).expect(SOUND));
             let mut spin = double(self.world.body_angular_velocity(id).expect(SOUND));
             if spin.is_finite() && spin.length_squared() > FASTEST_TURN * FASTEST_TURN {
                 spin = spin.clamp_length_max(FASTEST_TURN);
                 self.world.set_body_angular_velocity(id, single(spin)).expect(SOUND);
             }
-            let change = self.energies[index].look(position, rotation, velocity, spin, dt);
+            let change = self.energies[index].look(place, rotation, velocity, spin, dt);
             let asleep = event.fell_asleep;
             self.steps.push(Step { index, id, asleep, position, rotation, velocity, spin, change });
         }
@@ -403,7 +419,12 @@ impl ContactWorld {
             return;
         }
         for step in self.steps.iter_mut().filter(|step| !step.asleep) {
-            (step.velocity, step.spin) = self.energies[step.index].take_back(&step.change, part);
+            let (velocity, spin) = self.energies[step.index].take_back(step.rotation, &step.change, part);
+            if !velocity.is_finite() || !spin.is_finite() {
+                continue;
+            }
+            step.velocity = velocity.clamp_length_max(f64::from(FASTEST));
+            step.spin = spin.clamp_length_max(FASTEST_TURN);
             self.world.set_body_linear_velocity(step.id, single(step.velocity)).expect(SOUND);
             self.world.set_body_angular_velocity(step.id, single(step.spin)).expect(SOUND);
         }
@@ -421,11 +442,12 @@ impl ContactWorld {
             self.world.set_body_sleep_threshold(id, threshold).expect(SOUND);
         }
         let speed = step.velocity.length() + step.spin.length() * standstill.reach();
-        self.rollings[index].watch(&mut self.world, id, speed, dt);
-        self.depenetrations[index].watch(&mut self.world, id, speed, dt);
-        let due = self.studs[index].is_due(&mut self.world, speed, still, dt);
+        self.rockings[index].watch(&mut self.world, id, speed, dt);
+        let lift = self.depenetrations[index].watch(&mut self.world, id, speed, dt);
+        self.energies[index].lift(lift);
+        let due = self.studs[index].is_due(&mut self.world, id, speed, still, dt);
         if self.depenetrations[index].is_locked() {
-            self.studs[index].remove(&mut self.world);
+            self.studs[index].remove(&mut self.world, id);
         } else if due || step.asleep {
             self.put_studs(index, id);
         }
@@ -437,13 +459,18 @@ impl ContactWorld {
         let (place, turn) = pose_of(&self.world, id);
         let body = &self.bodies[index];
         let surface = surface(body.friction, studs::filter(body.passes.filter()));
-        let rocks = self.rollings[index].time() > studs::LATER && !self.standstills[index].holds();
+        let rocks = self.rockings[index].time() > studs::LATER && !self.standstills[index].holds();
         let depth = if rocks { studs::FINE } else { studs::DEPTH };
         for other in studs::near(&self.world, id, body.passes.filter()) {
             let (there, turned) = pose_of(&self.world, other);
             let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));
+            let bound = |&other: &usize| self.bonds.bind(index, other);
+            if self.index.get(&other).is_some_and(bound) {
+                // Mortar holds them, and they do not meet.
+                continue;
+            }
             let Some(others) = self.solids_of(other) else { continue };
-            let own = self.solids[index].get_or_init(|| solids(&body.shape));
+            let own = self.solids(index);
             let deepest = own.iter().flat_map(|part| {
                 others.iter().filter_map(|other| part.deepest_in(other, relative, shift, depth))
             });
@@ -453,24 +480,21 @@ impl ContactWorld {
         }
     }
 
+    fn solids(&self, index: usize) -> &[Convex] {
+        let corners = &self.corners[index];
+        self.solids[index].get_or_init(|| corners.iter().map(|points| Convex::hull_of(points)).collect())
+    }
+
     /// What a body is made of; `None` of one that has just gone.
     fn solids_of(&self, id: BodyId) -> Option<&[Convex]> {
         match &self.ground {
             Some((ground, solids)) if *ground == id => Some(solids),
             _ => {
                 let &index = self.index.get(&id)?;
-                Some(self.solids[index].get_or_init(|| solids(&self.bodies[index].shape)))
+                Some(self.solids(index))
             }
         }
     }
-}
-
-/// The convex solids that a shape is to Box3D.
-fn solids(shape: &CollisionShape) -> Vec<Convex> {
-    let hulls = shape.parts().iter().filter_map(|points| hull::hull_of(points));
-    let parts: Vec<Convex> = hulls.map(|placed| Convex::hull_of(&placed.corners)).collect();
-    let (middle, half) = shape.slab();
-    if parts.is_empty() { vec![Convex::of_box(middle, half)] } else { parts }
 }
 
 fn surface(friction: f64, filter: Filter) -> ShapeDef {

@@ -107,6 +107,11 @@ impl Bonds {
         Self { held: Vec::new(), gain }
     }
 
+    /// Whether a bond holds two bodies together.
+    pub fn bind(&self, one: usize, other: usize) -> bool {
+        self.held.iter().any(|held| held.bond.bodies == [one, other] || held.bond.bodies == [other, one])
+    }
+
     pub fn len(&self) -> usize {
         self.held.len()
     }

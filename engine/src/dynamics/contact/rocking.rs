@@ -1,4 +1,4 @@
-//! Rolling resistance of what lies on something.
+//! Angular damping of what lies on something.
 //!
 //! A shard that stands on a rim of many corners rocks on it like a rocking chair, and the library takes nothing from that:
 //! it was seen to go on for ten seconds. What has been slow for a while lies on something, since it does not fall, and its
@@ -8,23 +8,22 @@ use boxddd::{BodyId, World};
 
 use super::SOUND;
 
-/// A body that has been slower than this [m/s] for [`DELAY`] lies on something.
+/// A body that has been slower than this [m/s] for [`DELAY`] lies on something: what falls is faster.
 const SLOW: f64 = 0.3;
 /// See [`SLOW`] [s].
-const DELAY: f64 = 0.2;
-/// The part of its turn that it loses in a second, as a rate [1/s]: what rocks has half its swing after half a second. What
-/// begins to tip over does so later by a few tenths of a second.
+const DELAY: f64 = 0.4;
+/// Rate at which it loses its turn [1/s]: the swing of what rocks halves in half a second. What tips over from standstill is
+/// slow at first, too: it takes up to half as long again.
 const DAMPING: f32 = 3.0;
 
-/// Whether one body's turn is damped.
+/// For how long one body has been slow, and whether its turn is damped.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Rolling {
-    /// For how long it has been slow [s].
+pub struct Rocking {
     time: f64,
     damped: bool,
 }
 
-impl Rolling {
+impl Rocking {
     /// For how long the body has been slow [s].
     pub fn time(&self) -> f64 {
         self.time
