@@ -9,11 +9,12 @@ use brisance_engine::charge::Charge;
 use brisance_engine::dynamics::contact::{CollisionShape, ContactBody, ContactWorld, LONGEST_STEP, Passes};
 use brisance_engine::dynamics::ground::{Ground, RESTITUTION};
 use brisance_engine::dynamics::{GRAVITY, RigidBody};
+use brisance_engine::geometry::Polygon;
 use brisance_engine::loading::Resistance;
 use brisance_engine::scene::Scene;
 use brisance_engine::simulation::Simulation;
 use following::follow;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use wall::{BRICK, block, bricks, run, scene};
 
@@ -233,6 +234,60 @@ fn energy_never_rises() {
     assert_eq!(yard.world.awake(), 0);
 }
 
+/// A heavy block that falls spinning onto a light one on the ground is hardly thrown up: in eighty such falls energy rises by
+/// no more than 1.5 % of what there was, and most of that is height that the block gets back as it comes out of the light one,
+/// which it had overlapped by a centimetre. The library alone makes 2.8 %.
+#[test]
+fn a_heavy_block_that_strikes_a_light_one_gains_little() {
+    let sizes = [DVec3::new(0.15, 0.1, 0.2), DVec3::new(0.4, 0.3, 0.25)];
+    let worst = (0..80).map(|k| {
+        let turn = f64::from(k);
+        let low = solid(sizes[0], DVec3::Y * 0.05, 2.0);
+        let mut high = solid(sizes[1], DVec3::new(0.05 * turn.sin(), 0.8, 0.05 * turn.cos()), 120.0);
+        high.world_from_principal = DQuat::from_rotation_x(turn) * DQuat::from_rotation_z(0.7 * turn);
+        high.velocity = DVec3::new(0.5, -3.0, 0.3);
+        high.angular_momentum = DVec3::new(turn.sin(), turn.cos(), 0.5) * 10.0 / high.inverse_moments;
+        let mut yard = Yard::new(&sizes, vec![low, high], 0.5);
+        let start = yard.energy();
+        let (mut least, mut rise) = (start, 0.0_f64);
+        for _ in 0..(2.0 / STEP) as usize {
+            yard.step(STEP);
+            rise = rise.max((yard.energy() - least) / start);
+            least = least.min(yard.energy());
+        }
+        rise
+    });
+    let worst = worst.fold(0.0, f64::max);
+    println!("energy rises by {worst}");
+    assert!(worst < 1.5e-2, "energy rises by {worst}");
+}
+
+/// A half disc that stands on its round rim, of forty corners, and is tilted rocks to and fro. Its turn is damped by 3/s from
+/// 0.4 s on, which leaves half of the swing after half a second: it rests after three and a half seconds, and after more than
+/// five without that.
+#[test]
+fn what_rocks_comes_to_rest() {
+    let (radius, thickness, mass) = (0.1, 0.1, 2.0);
+    let rim =
+        (0..=40).map(|k| DVec2::from_angle(std::f64::consts::PI * (1.0 + f64::from(k) / 40.0)) * radius);
+    // The middle of a half disc.
+    let outline = Polygon::new(&rim.map(|p| p + DVec2::Y * 0.4244 * radius).collect::<Vec<_>>());
+    let shape = CollisionShape::of_flat(&outline, thickness, DQuat::IDENTITY);
+    let mut state = solid(DVec3::new(2.0 * radius, radius, thickness), DVec3::Y * 0.0576, mass);
+    state.world_from_principal = DQuat::from_rotation_z(0.3);
+    let body = ContactBody { shape, friction: 0.5, anchored: false, passes: Passes::Nothing };
+    let ground = Ground { height: 0.0, friction: 0.5 };
+    let mut world = ContactWorld::new(vec![body], Some(ground), DVec3::ZERO);
+    world.join(0, &state, true);
+    let mut time = 0.0;
+    while world.awake() > 0 && time < 20.0 {
+        world.step(STEP, |_, _, _, _, _| {});
+        time += STEP;
+    }
+    println!("rests after {time} s");
+    assert!((0.5..4.5).contains(&time), "it rests after {time} s");
+}
+
 fn touching(mut scene: Scene, duration: f64) -> Scene {
     scene.dynamics.contacts = true;
     scene.time.duration = duration;
@@ -336,8 +391,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 250, ..ProptestConfig::default() })]
 
     /// Boxes of any size thrown at each other from anywhere come down: none is lost, none ends in the ground or in another
-    /// by more than 2 mm, and energy never rises by more than a hundredth of what there was. Most gain nothing; 0.7 % is the
-    /// most that was seen, where one is driven out of what it overlapped.
+    /// by more than 2 mm, and energy never rises by more than a hundredth of what there was. Most gain nothing; the rest is
+    /// height that they get back as they come out of what they overlapped.
     #[test]
     fn whatever_is_thrown_comes_to_lie_on_the_ground(
         boxes in prop::collection::vec(
