@@ -1,4 +1,4 @@
-//! The smallest box about points.
+//! The smallest box about points, and its corners.
 
 use glam::{DVec2, DVec3};
 
@@ -20,6 +20,15 @@ pub trait Coordinates: Copy {
 pub fn bounds<P: Coordinates>(points: impl IntoIterator<Item = P>) -> (P, P) {
     let nothing = (P::INFINITY, P::NEG_INFINITY);
     points.into_iter().fold(nothing, |(low, high), point| (low.min(point), high.max(point)))
+}
+
+/// The corners of a box with this lowest and this highest one: the bits of a corner's number say along which axes it is
+/// high.
+pub fn box_corners(low: DVec3, high: DVec3) -> [DVec3; 8] {
+    std::array::from_fn(|code| {
+        let pick = |axis: usize| if code >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        DVec3::new(pick(0), pick(1), pick(2))
+    })
 }
 
 macro_rules! coordinates {

@@ -15,7 +15,7 @@ mod samples;
 mod silhouette;
 mod triangulation;
 
-pub use bounds::{Coordinates, bounds};
+pub use bounds::{Coordinates, bounds, box_corners};
 pub use convex::{convex_hull, convex_parts, simplified};
 pub use mass::{MassProperties, PrincipalAxes};
 pub use mesh::TriangleMesh;

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::hull::hull_of;
-use crate::geometry::{TriangleMesh, bounds};
+use crate::geometry::{TriangleMesh, bounds, box_corners};
 
 /// Hulls may together have this many times the volume of the mesh.
 const ENOUGH: f64 = 1.05;
@@ -90,11 +90,7 @@ impl Cell {
             clip(triangle, axis, at, side, &mut surface);
         }
         let mut points: Vec<DVec3> = surface.iter().flatten().copied().collect();
-        let corners = (0..8).map(|code| {
-            let pick = |bit: usize| if code >> bit & 1 == 0 { low[bit] } else { high[bit] };
-            DVec3::new(pick(0), pick(1), pick(2))
-        });
-        points.extend(corners.filter(|&corner| mesh.encloses(corner)));
+        points.extend(box_corners(low, high).into_iter().filter(|&corner| mesh.encloses(corner)));
         let volume = if points.len() < 4 { 0.0 } else { hull_of(&points).map_or(0.0, |hull| hull.volume) };
         Self { low, high, surface, points, volume }
     }

@@ -23,14 +23,6 @@ pub struct Convex {
     ball: (DVec3, f64),
 }
 
-/// The corners of a box with this middle and these half edges [m].
-pub fn box_corners(middle: DVec3, half: DVec3) -> [DVec3; 8] {
-    std::array::from_fn(|code| {
-        let sign = |bit: usize| if code >> bit & 1 == 0 { -1.0 } else { 1.0 };
-        middle + half * DVec3::new(sign(0), sign(1), sign(2))
-    })
-}
-
 /// A plane with the solid behind it.
 #[derive(Debug, Clone, Copy)]
 struct Face {
@@ -152,14 +144,15 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::geometry::box_corners;
 
     fn cube() -> Convex {
-        Convex::hull_of(&box_corners(DVec3::ZERO, DVec3::splat(0.5)))
+        Convex::hull_of(&box_corners(DVec3::splat(-0.5), DVec3::splat(0.5)))
     }
 
     #[test]
     fn a_box_has_its_faces_and_edges() {
-        let solid = Convex::hull_of(&box_corners(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 0.003)));
+        let solid = Convex::hull_of(&box_corners(DVec3::new(0.9, 1.8, 3.0), DVec3::new(1.1, 2.2, 3.006)));
         assert_eq!((solid.faces.len(), solid.edges.len()), (6, 12));
         // Euler: corners − edges + faces = 2, of a prism over seven corners as well.
         let ring = |z: f64| (0..7).map(move |k| DVec3::new(f64::from(k).cos(), f64::from(k).sin(), z));
@@ -182,7 +175,7 @@ mod tests {
     /// Bars that cross have no corner in each other: each is deepest in the middle of an edge.
     #[test]
     fn an_edge_across_another_body_is_deepest_between_its_ends() {
-        let bar = Convex::hull_of(&box_corners(DVec3::ZERO, DVec3::new(1.0, 0.1, 0.1)));
+        let bar = Convex::hull_of(&box_corners(-DVec3::new(1.0, 0.1, 0.1), DVec3::new(1.0, 0.1, 0.1)));
         let shift = DVec3::new(0.1, 0.19, 0.0);
         let (point, depth) =
             bar.deepest_in(&bar, DQuat::from_rotation_y(1.57), shift, 1e-3).expect("they cross");

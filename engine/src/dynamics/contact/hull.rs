@@ -204,14 +204,11 @@ fn outermost(points: &[[i32; 3]]) -> Vec<[i32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::box_corners;
 
     /// The corners of a box with these half edges, turned.
     fn corners(half: DVec3, turn: DQuat) -> Vec<DVec3> {
-        let corner = |code: usize| {
-            let sign = |bit: usize| if code >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            turn * (half * DVec3::new(sign(0), sign(1), sign(2)))
-        };
-        (0..8).map(corner).collect()
+        box_corners(-half, half).map(|corner| turn * corner).to_vec()
     }
 
     /// A thin plate has its own volume, not that of the box about it, however it lies; so has a needle.

@@ -32,6 +32,7 @@ use glam::{DQuat, DVec3};
 
 use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
 use super::{GRAVITY, RigidBody};
+use crate::geometry::box_corners;
 use convex::Convex;
 use depenetration::Depenetration;
 use energy::{Change, Energy};
@@ -272,7 +273,7 @@ impl ContactWorld {
         }
         if corners.is_empty() {
             let (middle, half) = body.shape.slab();
-            corners.push(convex::box_corners(middle, half).to_vec());
+            corners.push(box_corners(middle - half, middle + half).to_vec());
             let (middle, half) = (single(middle), single(half));
             let slab = BoxHull::offset(half.x, half.y, half.z, middle).expect(SOUND);
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
