@@ -17,11 +17,12 @@ mod hull;
 mod mass;
 mod mortar;
 mod rocking;
+mod settling;
 mod shape;
+mod solids;
 mod standstill;
 mod studs;
 
-use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use boxddd::{
@@ -33,16 +34,13 @@ use glam::{DQuat, DVec3};
 use super::ground::{BOUNCE_SPEED, Ground, RESTITUTION};
 use super::{GRAVITY, RigidBody};
 use crate::geometry::box_corners;
-use convex::Convex;
-use depenetration::Depenetration;
 use energy::{Change, Energy};
 use mass::{gain, mass_data};
 use mortar::Bonds;
 pub use mortar::{Bond, Mortar, bonds_of_bricks};
-use rocking::Rocking;
+use settling::{SLEEP_SPEED, Settling};
 pub use shape::CollisionShape;
-use standstill::Standstill;
-use studs::Studs;
+use solids::Solids;
 
 /// Box3D's tolerances are for bodies of a metre; ours are this much finer: its slop is 0.25 mm, the distance at which
 /// contacts begin 1 mm.
@@ -51,10 +49,6 @@ const FINENESS: f32 = 0.05;
 ///
 /// Bodies that overlap when they are freed gain no more speed than the last.
 const CONTACT: (f32, f32, f32) = (146.0, 10.0, 0.4);
-/// A body all of which moves slower than this for half a second falls asleep [m/s].
-const SLEEP_SPEED: f32 = 0.03;
-/// The same for a body that gets nowhere, however it trembles [m/s].
-const TREMOR: f32 = 1.0;
 /// Faster than any body a blast throws [m/s].
 const FASTEST: f32 = 1e4;
 /// Longest sub-step of the contacts [s]: Box3D makes contacts no stiffer than an eighth of its rate. With twice that,
@@ -149,16 +143,9 @@ pub struct ContactWorld {
     bodies: Vec<ContactBody>,
     ids: Vec<Option<BodyId>>,
     index: HashMap<BodyId, usize>,
-    standstills: Vec<Standstill>,
-    rockings: Vec<Rocking>,
-    depenetrations: Vec<Depenetration>,
-    studs: Vec<Studs>,
-    /// The corners of each body's hulls as Box3D has them [m], and the solids that these are: found for bodies that come
-    /// near another while they are slow.
-    corners: Vec<Vec<Vec<DVec3>>>,
-    solids: Vec<OnceCell<Vec<Convex>>>,
-    /// The ground's body, and what it is.
-    ground: Option<(BodyId, Vec<Convex>)>,
+    /// Of each body that is here.
+    settlings: Vec<Option<Settling>>,
+    solids: Solids,
     /// Box3D's masses are this many times ours. Only their ratios matter to motion, and the moments of a splinter of
     /// glass are so small that their product is nothing in single precision: it would turn forever.
     gain: f64,
@@ -208,25 +195,19 @@ impl ContactWorld {
             world
                 .create_hull_shape(id, &surface(ground.friction, Passes::Nothing.filter()), &slab)
                 .expect(SOUND);
-            (id, vec![Convex::below(f64::from(0.5 * depth))])
+            (id, f64::from(0.5 * depth))
         });
         let ids = vec![None; bodies.len()];
         let largest = bodies.iter().filter(|body| !body.anchored).map(|body| body.shape.reach());
         let largest = largest.fold(0.0, f64::max).clamp(1e-4, LARGEST);
         let gain = gain(largest);
-        let standstills = vec![Standstill::new(DVec3::ZERO, DQuat::IDENTITY, 0.0); bodies.len()];
         Self {
             world,
             ids,
             index: HashMap::new(),
-            standstills,
-            rockings: vec![Rocking::default(); bodies.len()],
-            depenetrations: vec![Depenetration::up_to(1.0); bodies.len()],
+            settlings: vec![None; bodies.len()],
+            solids: Solids::new(bodies.len(), ground),
             energies: vec![Energy::default(); bodies.len()],
-            studs: vec![Studs::none(); bodies.len()],
-            corners: vec![Vec::new(); bodies.len()],
-            solids: vec![OnceCell::new(); bodies.len()],
-            ground,
             bodies,
             gain,
             bonds: Bonds::new(gain),
@@ -278,17 +259,18 @@ impl ContactWorld {
             let slab = BoxHull::offset(half.x, half.y, half.z, middle).expect(SOUND);
             self.world.create_hull_shape(id, &surface, &slab).expect(SOUND);
         }
-        self.corners[index] = corners;
+        self.solids.set(index, corners);
+        let mut room = 1.0;
         if !body.anchored {
-            let (mass, room) = mass_data(state, body.shape.reach(), self.gain);
+            let (mass, most) = mass_data(state, body.shape.reach(), self.gain);
             self.world.set_body_mass_data(id, mass).expect(SOUND);
-            self.depenetrations[index] = Depenetration::up_to(room);
+            room = most;
             self.energies[index] = Energy::of(state);
             self.rebase(index, state);
         }
         self.ids[index] = Some(id);
         self.index.insert(id, index);
-        self.standstills[index] = Standstill::new(state.position, state.world_from_principal, state.reach);
+        self.settlings[index] = Some(Settling::new(state, room));
         true
     }
 
@@ -306,7 +288,7 @@ impl ContactWorld {
     pub fn leave(&mut self, index: usize) {
         if let Some(id) = self.ids[index].take() {
             self.bonds.forget(index);
-            self.studs[index].forget();
+            self.settlings[index] = None;
             self.index.remove(&id);
             self.world.destroy_body(id).expect(SOUND);
         }
@@ -323,8 +305,8 @@ impl ContactWorld {
     /// Lets a body meet everything from now on but what it `passes`; what touches it wakes.
     pub fn pass(&mut self, index: usize, passes: Passes) {
         self.bodies[index].passes = passes;
-        let Some(id) = self.ids[index] else { return };
-        self.studs[index].remove(&mut self.world, id);
+        let (Some(id), Some(settling)) = (self.ids[index], &mut self.settlings[index]) else { return };
+        settling.studs.remove(&mut self.world, id);
         for shape in self.world.body_shapes(id).expect(SOUND) {
             self.world.set_shape_filter(shape, passes.filter(), true).expect(SOUND);
         }
@@ -381,11 +363,10 @@ impl ContactWorld {
         self.take_energy_back();
         let steps = std::mem::take(&mut self.steps);
         for step in &steps {
-            self.settle(step, dt);
+            let still = self.settle(step, dt);
             let Step { index, asleep, position, rotation, velocity, spin, .. } = *step;
             // One that has just got a stud is awake again.
-            let asleep = asleep && !self.is_awake(index);
-            let moved = Moved { index, asleep, still: self.standstills[index].holds() };
+            let moved = Moved { index, asleep: asleep && !self.is_awake(index), still };
             update(moved, position, rotation, velocity, spin);
         }
         self.steps = steps;
@@ -431,68 +412,42 @@ impl ContactWorld {
         }
     }
 
-    /// Helps a body that hardly moves to lie still, and not in others.
-    fn settle(&mut self, step: &Step, dt: f64) {
+    /// Helps a body to lie still, and not in others. Returns whether it gets nowhere.
+    fn settle(&mut self, step: &Step, dt: f64) -> bool {
         let &Step { index, id, .. } = step;
-        let standstill = &mut self.standstills[index];
-        let before = standstill.holds();
-        standstill.watch(step.position, step.rotation, dt);
-        let still = standstill.holds();
-        if still != before {
-            let threshold = if still { TREMOR } else { SLEEP_SPEED };
-            self.world.set_body_sleep_threshold(id, threshold).expect(SOUND);
-        }
-        let speed = step.velocity.length() + step.spin.length() * standstill.reach();
-        self.rockings[index].watch(&mut self.world, id, speed, dt);
-        let lift = self.depenetrations[index].watch(&mut self.world, id, speed, dt);
-        self.energies[index].lift(lift);
-        let due = self.studs[index].is_due(&mut self.world, id, speed, still, dt);
-        if self.depenetrations[index].is_locked() {
-            self.studs[index].remove(&mut self.world, id);
-        } else if due || step.asleep {
+        let Some(settling) = &mut self.settlings[index] else { return false };
+        let outcome = settling.watch(&mut self.world, step, dt);
+        let still = settling.is_still();
+        self.energies[index].lift(outcome.lift);
+        if outcome.look {
             self.put_studs(index, id);
         }
+        still
     }
 
     /// Puts studs on a body where it is deepest in each of those about it.
     fn put_studs(&mut self, index: usize, id: BodyId) {
-        self.studs[index].prune(&mut self.world, id);
+        let Some(settling) = &mut self.settlings[index] else { return };
+        settling.studs.prune(&mut self.world, id);
         let (place, turn) = pose_of(&self.world, id);
         let body = &self.bodies[index];
         let surface = surface(body.friction, studs::filter(body.passes.filter()));
-        let rocks = self.rockings[index].time() > studs::LATER && !self.standstills[index].holds();
-        let depth = if rocks { studs::FINE } else { studs::DEPTH };
+        let least = settling.depth();
         for other in studs::near(&self.world, id, body.passes.filter()) {
-            let (there, turned) = pose_of(&self.world, other);
-            let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));
-            let bound = |&other: &usize| self.bonds.bind(index, other);
-            if self.index.get(&other).is_some_and(bound) {
+            let number = self.index.get(&other).copied();
+            if number.is_some_and(|number| self.bonds.bind(index, number)) {
                 // Mortar holds them, and they do not meet.
                 continue;
             }
-            let Some(others) = self.solids_of(other) else { continue };
-            let own = self.solids(index);
-            let deepest = own.iter().flat_map(|part| {
-                others.iter().filter_map(|other| part.deepest_in(other, relative, shift, depth))
+            let others = number.map(|number| self.solids.of(number)).or_else(|| self.solids.of_ground(other));
+            let (there, turned) = pose_of(&self.world, other);
+            let (relative, shift) = (turn.conjugate() * turned, turn.conjugate() * (there - place));
+            let deepest = self.solids.of(index).iter().flat_map(|part| {
+                let others = others.into_iter().flatten();
+                others.filter_map(|other| part.deepest_in(other, relative, shift, least))
             });
             if let Some((point, _)) = deepest.max_by(|a, b| a.1.total_cmp(&b.1)) {
-                self.studs[index].add(&mut self.world, id, point, &surface);
-            }
-        }
-    }
-
-    fn solids(&self, index: usize) -> &[Convex] {
-        let corners = &self.corners[index];
-        self.solids[index].get_or_init(|| corners.iter().map(|points| Convex::hull_of(points)).collect())
-    }
-
-    /// What a body is made of; `None` of one that has just gone.
-    fn solids_of(&self, id: BodyId) -> Option<&[Convex]> {
-        match &self.ground {
-            Some((ground, solids)) if *ground == id => Some(solids),
-            _ => {
-                let &index = self.index.get(&id)?;
-                Some(self.solids(index))
+                settling.studs.add(&mut self.world, id, point, &surface);
             }
         }
     }

@@ -49,8 +49,7 @@ impl Studs {
     }
 
     /// Takes in a step of `dt` [s] after which no part of the body is faster than `speed` [m/s]. Returns whether it is time
-    /// to look where it is deep in others.
-    /// A body that is `still` changes little.
+    /// to look where it is deep in others: less often for one that is `still`.
     pub fn is_due(&mut self, world: &mut World, id: BodyId, speed: f64, still: bool, dt: f64) -> bool {
         if speed > FAST {
             self.wait = DELAY;
@@ -101,11 +100,6 @@ impl Studs {
         // So the library learns that the body is as thick as it was.
         let mass = world.body_mass_data(id).expect(SOUND);
         world.set_body_mass_data(id, mass).expect(SOUND);
-    }
-
-    /// Forgets them, where the body is gone.
-    pub fn forget(&mut self) {
-        self.all.clear();
     }
 }
 
