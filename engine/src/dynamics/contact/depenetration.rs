@@ -12,13 +12,13 @@ use boxddd::{BodyId, ContactData, Manifold, World};
 use glam::DVec3;
 
 use super::mass::scaled;
+use super::settling::SLOW;
 use super::{SOUND, double, pose_of, single};
 
 /// How deep a body may be in another before something is done about it [m].
 const DEPTH: f64 = 1e-3;
-/// A body that has been slower than this [m/s] for [`DELAY`] lies on something: what falls is faster.
-const SLOW: f64 = 0.3;
-/// See [`SLOW`] [s]. Pieces that are let go overlap a little, and come apart by themselves.
+/// For how long a body has to be slower than [`SLOW`] [s]. Pieces that are let go overlap a little, and come apart by
+/// themselves.
 const DELAY: f64 = 0.2;
 /// One faster than this has its own mass [m/s].
 const FAST: f64 = 0.6;

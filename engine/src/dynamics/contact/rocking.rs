@@ -7,10 +7,9 @@
 use boxddd::{BodyId, World};
 
 use super::SOUND;
+use super::settling::SLOW;
 
-/// A body that has been slower than this [m/s] for [`DELAY`] lies on something: what falls is faster.
-const SLOW: f64 = 0.3;
-/// See [`SLOW`] [s].
+/// For how long a body has to be slower than [`SLOW`] [s].
 const DELAY: f64 = 0.4;
 /// Rate at which it loses its turn [1/s]: the swing of what rocks halves in half a second. What tips over from standstill is
 /// slow at first, too: it takes up to half as long again.

@@ -9,6 +9,8 @@ use super::studs::{self, Studs};
 use super::{SOUND, Step};
 use crate::dynamics::RigidBody;
 
+/// A body that has been slower than this for some tenths of a second lies on something: what falls is faster [m/s].
+pub const SLOW: f64 = 0.3;
 /// A body all of which moves slower than this for half a second falls asleep [m/s].
 pub const SLEEP_SPEED: f32 = 0.03;
 /// The same for a body that gets nowhere, however it trembles [m/s].
